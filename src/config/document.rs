@@ -1,0 +1,367 @@
+//! A TOML document that is read key by key and collects everything that is wrong with it.
+//!
+//! A [`Table`] hands out values by key and type. What is missing or of the wrong type becomes a
+//! [`Problem`] and a placeholder, so that one run finds all problems; [`Table::finish`] reports the keys
+//! nobody asked for. Knows TOML and types; knows no gears.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::place::{Place, Problem};
+
+/// The line of every key and table in a file, by key path.
+#[derive(Debug, Clone, Default)]
+pub struct Lines(BTreeMap<String, usize>);
+
+impl Lines {
+    /// The line of a key path, or of the nearest table around it that the file contains.
+    pub fn find(&self, key: &str) -> Option<usize> {
+        let mut path = key;
+        loop {
+            if let Some(&line) = self.0.get(path) {
+                return Some(line);
+            }
+            path = &path[..path.rfind('.')?];
+        }
+    }
+}
+
+/// A parsed file, with the problems found so far.
+pub(super) struct Document<'t> {
+    text: &'t str,
+    problems: RefCell<Vec<Problem>>,
+    lines: RefCell<Lines>,
+}
+
+/// One table of the document, while it is being read.
+pub(super) struct Table<'d, 't> {
+    document: &'d Document<'t>,
+    entries: &'d DeTable<'t>,
+    asked: RefCell<Vec<&'static str>>,
+    place: Place,
+}
+
+impl<'t> Document<'t> {
+    pub(super) fn new(text: &'t str) -> Document<'t> {
+        Document {
+            text,
+            problems: RefCell::default(),
+            lines: RefCell::default(),
+        }
+    }
+
+    /// The top table, to be kept by the caller; `None` after syntax errors, which become problems.
+    pub(super) fn parse(&self) -> Option<Spanned<DeTable<'t>>> {
+        let (table, errors) = DeTable::parse_recoverable(self.text);
+        if errors.is_empty() {
+            return Some(table);
+        }
+        for error in errors {
+            let line = error.span().map(|span| self.line(span.start));
+            let message = format!("not valid TOML: {}", error.message().replace('\n', ", "));
+            let (key, place) = (String::new(), String::new());
+            self.problems.borrow_mut().push(Problem {
+                line,
+                key,
+                place,
+                message,
+            });
+        }
+        None
+    }
+
+    pub(super) fn top<'d>(&'d self, entries: &'d DeTable<'t>) -> Table<'d, 't> {
+        Table {
+            document: self,
+            entries,
+            asked: RefCell::default(),
+            place: Place::root(),
+        }
+    }
+
+    pub(super) fn into_findings(self) -> (Vec<Problem>, Lines) {
+        (self.problems.into_inner(), self.lines.into_inner())
+    }
+
+    fn line(&self, offset: usize) -> usize {
+        1 + self.text.as_bytes()[..offset]
+            .iter()
+            .filter(|&&byte| byte == b'\n')
+            .count()
+    }
+}
+
+impl<'d, 't> Table<'d, 't> {
+    /// Whether the key is present; marks it as known.
+    pub(super) fn has(&self, key: &'static str) -> bool {
+        self.value(key).is_some()
+    }
+
+    /// A number that must be present; NaN stands in when it is not.
+    pub(super) fn number(&self, key: &'static str) -> f64 {
+        self.optional_number(key)
+            .unwrap_or_else(|| self.missing(key, f64::NAN))
+    }
+
+    pub(super) fn number_or(&self, key: &'static str, default: f64) -> f64 {
+        self.optional_number(key).unwrap_or(default)
+    }
+
+    /// A number that may be absent; NaN stands in for a value of another type.
+    pub(super) fn optional_number(&self, key: &'static str) -> Option<f64> {
+        let value = self.value(key)?;
+        let number = match value {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::Integer(_) => integer(value).map(|whole| whole as f64),
+            _ => None,
+        };
+        let rule = match value {
+            DeValue::String(_) => {
+                "must be a plain number in SI units (strings with units are not available yet)"
+            }
+            _ => "must be a number",
+        };
+        Some(number.unwrap_or_else(|| self.wrong_type(key, rule, value, f64::NAN)))
+    }
+
+    /// A whole number >= 0 that must be present.
+    pub(super) fn count(&self, key: &'static str) -> usize {
+        let Some(value) = self.value(key) else {
+            return self.missing(key, 1);
+        };
+        let count = integer(value).and_then(|whole| usize::try_from(whole).ok());
+        count.unwrap_or_else(|| self.wrong_type(key, "must be a whole number, 0 or more", value, 1))
+    }
+
+    /// A string that must be present.
+    pub(super) fn string(&self, key: &'static str) -> String {
+        self.optional_string(key)
+            .unwrap_or_else(|| self.missing(key, String::new()))
+    }
+
+    /// A string that may be absent; it is empty when the value has another type.
+    pub(super) fn optional_string(&self, key: &'static str) -> Option<String> {
+        Some(match self.value(key)? {
+            DeValue::String(string) => string.to_string(),
+            other => self.wrong_type(key, "must be a string", other, String::new()),
+        })
+    }
+
+    pub(super) fn boolean_or(&self, key: &'static str, default: bool) -> bool {
+        match self.value(key) {
+            None => default,
+            Some(DeValue::Boolean(value)) => *value,
+            Some(other) => self.wrong_type(key, "must be true or false", other, default),
+        }
+    }
+
+    /// One of a few words, each with its meaning; the first one stands in for a wrong word.
+    pub(super) fn choice<T: Copy>(
+        &self,
+        key: &'static str,
+        default: Option<&str>,
+        choices: &[(&str, T)],
+    ) -> T {
+        let first = choices[0].1;
+        let word = match (self.optional_string(key), default) {
+            (Some(word), _) => word,
+            (None, Some(default)) => default.to_string(),
+            (None, None) => return self.missing(key, first),
+        };
+        if let Some((_, meaning)) = choices.iter().find(|(name, _)| *name == word) {
+            return *meaning;
+        }
+        let names: Vec<String> = choices
+            .iter()
+            .map(|(name, _)| format!("\"{name}\""))
+            .collect();
+        self.problem(
+            key,
+            format!("must be {}, found \"{word}\"", names.join(" or ")),
+        );
+        first
+    }
+
+    /// A list of exactly two strings that must be present.
+    pub(super) fn pair_of_strings(&self, key: &'static str) -> [String; 2] {
+        let nothing = || [String::new(), String::new()];
+        let Some(value) = self.value(key) else {
+            return self.missing(key, nothing());
+        };
+        let strings: Option<Vec<String>> = value.as_array().and_then(|array| {
+            array
+                .iter()
+                .map(|item| item.get_ref().as_str().map(str::to_string))
+                .collect()
+        });
+        strings
+            .and_then(|list| <[String; 2]>::try_from(list).ok())
+            .unwrap_or_else(|| {
+                self.wrong_type(key, "must be a list of two strings", value, nothing())
+            })
+    }
+
+    /// The table under `key`, in words called `key`.
+    pub(super) fn table(&self, key: &'static str) -> Option<Table<'d, 't>> {
+        match self.value(key)? {
+            DeValue::Table(entries) => Some(self.inner(entries, self.place.table(key))),
+            other => self.wrong_type(key, "must be a table", other, None),
+        }
+    }
+
+    /// The tables `[key.NAME]` by name.
+    pub(super) fn named_tables(&self, key: &'static str) -> Vec<(String, Table<'d, 't>)> {
+        let entries = match self.value(key) {
+            None => return Vec::new(),
+            Some(DeValue::Table(entries)) => entries,
+            Some(other) => return self.wrong_type(key, "must be a table", other, Vec::new()),
+        };
+        let mut tables = Vec::new();
+        for (name, value) in entries {
+            let place = self.place.table(&format!("{key}.{}", name.get_ref()));
+            self.note_line(&place.key(""), name.span().start);
+            match value.get_ref() {
+                DeValue::Table(inner) => {
+                    tables.push((name.get_ref().to_string(), self.inner(inner, place)));
+                }
+                other => {
+                    let message =
+                        format!("{}: must be a table, found {}", name.get_ref(), show(other));
+                    self.push(place.problem("", message));
+                }
+            }
+        }
+        tables
+    }
+
+    /// The tables `[[key]]`; in words by their `name`, where they have one.
+    pub(super) fn tables(&self, key: &'static str) -> Vec<Table<'d, 't>> {
+        let Some(value) = self.value(key) else {
+            return Vec::new();
+        };
+        let items: Option<Vec<_>> = value.as_array().and_then(|array| {
+            array
+                .iter()
+                .map(|item| Some((item.span().start, item.get_ref().as_table()?)))
+                .collect()
+        });
+        let Some(items) = items else {
+            let rule = format!(
+                "must be a list of tables, written [[{}]]",
+                self.plain_path(key)
+            );
+            return self.wrong_type(key, &rule, value, Vec::new());
+        };
+        let mut tables = Vec::with_capacity(items.len());
+        for (index, (offset, entries)) in items.into_iter().enumerate() {
+            let name = entries.get("name").and_then(|name| name.get_ref().as_str());
+            let place = self.place.element(key, index, name);
+            self.note_line(&place.key(""), offset);
+            tables.push(self.inner(entries, place));
+        }
+        tables
+    }
+
+    /// Refuses a key of the documented format that this version cannot honour.
+    pub(super) fn not_yet(&self, key: &'static str, what: &str) {
+        if self.has(key) {
+            self.problem(
+                key,
+                format!("{what} is not available yet in this version of geartrain"),
+            );
+        }
+    }
+
+    /// Reports a problem with one of the table's keys; the message follows the key's name.
+    pub(super) fn problem(&self, key: &str, message: String) {
+        self.push(self.place.problem(key, format!("{key}: {message}")));
+    }
+
+    /// Reports every key that nobody asked for.
+    pub(super) fn finish(self) {
+        let asked = self.asked.borrow();
+        for (key, _) in self.entries {
+            if !asked.contains(&key.get_ref().as_ref()) {
+                self.note_line(&self.place.key(key.get_ref()), key.span().start);
+                let known = asked.join(", ");
+                self.problem(key.get_ref(), format!("unknown key; known here: {known}"));
+            }
+        }
+    }
+
+    fn inner(&self, entries: &'d DeTable<'t>, place: Place) -> Table<'d, 't> {
+        Table {
+            document: self.document,
+            entries,
+            asked: RefCell::default(),
+            place,
+        }
+    }
+
+    fn value(&self, key: &'static str) -> Option<&'d DeValue<'t>> {
+        if !self.asked.borrow().contains(&key) {
+            self.asked.borrow_mut().push(key);
+        }
+        let (name, value) = self.entries.get_key_value(key)?;
+        self.note_line(&self.place.key(key), name.span().start);
+        Some(value.get_ref())
+    }
+
+    fn missing<T>(&self, key: &str, placeholder: T) -> T {
+        self.problem(key, "missing".to_string());
+        placeholder
+    }
+
+    fn wrong_type<T>(&self, key: &str, rule: &str, found: &DeValue<'_>, placeholder: T) -> T {
+        self.problem(key, format!("{rule}, found {}", show(found)));
+        placeholder
+    }
+
+    fn push(&self, mut problem: Problem) {
+        problem.line = self.document.lines.borrow().find(&problem.key);
+        self.document.problems.borrow_mut().push(problem);
+    }
+
+    fn note_line(&self, key: &str, offset: usize) {
+        let line = self.document.line(offset);
+        self.document
+            .lines
+            .borrow_mut()
+            .0
+            .insert(key.to_string(), line);
+    }
+
+    /// The key path without element numbers, as TOML headers are written.
+    fn plain_path(&self, key: &str) -> String {
+        let path = self.place.key(key);
+        let mut plain = String::new();
+        let mut inside = false;
+        for letter in path.chars() {
+            inside = (inside || letter == '[') && letter != ']';
+            if !inside && letter != ']' {
+                plain.push(letter);
+            }
+        }
+        plain
+    }
+}
+
+fn integer(value: &DeValue<'_>) -> Option<i64> {
+    let integer = value.as_integer()?;
+    i64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}
+
+fn show(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(string) => format!("the string \"{string}\""),
+        DeValue::Integer(number) => number.to_string(),
+        DeValue::Float(number) => number.to_string(),
+        DeValue::Boolean(value) => value.to_string(),
+        DeValue::Datetime(date) => format!("the date {date}"),
+        DeValue::Array(_) => "a list".to_string(),
+        DeValue::Table(_) => "a table".to_string(),
+    }
+}

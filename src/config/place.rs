@@ -1,0 +1,96 @@
+//! Where something stands in a model file, and what is wrong there.
+
+use std::fmt;
+
+/// A table of the model file, by key path for machines and in words for people.
+///
+/// ```
+/// let bearing = geartrain::config::Place::root()
+///     .element("rotor", 1, Some("stage2"))
+///     .element("bearing", 0, Some("b1"));
+/// assert_eq!(bearing.words(), "rotor \"stage2\", bearing \"b1\"");
+/// assert_eq!(bearing.key("position"), "rotor[2].bearing[1].position");
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    path: String,
+    words: String,
+}
+
+/// One thing that is wrong in a model file, or worth a warning.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Line in the file, counted from one; unknown for models that do not come from a file.
+    pub line: Option<usize>,
+    /// Key path, such as `rotor[2].bearing[1].position`.
+    pub key: String,
+    /// The table in words, such as `rotor "stage2", bearing "b1"`; empty at the top.
+    pub place: String,
+    /// Key, rule and found value.
+    pub message: String,
+}
+
+impl Place {
+    /// The top of the file.
+    pub fn root() -> Place {
+        Place {
+            path: String::new(),
+            words: String::new(),
+        }
+    }
+
+    /// The table `name` inside this one.
+    pub fn table(&self, name: &str) -> Place {
+        Place {
+            path: self.key(name),
+            words: joined(&self.words, ", ", name),
+        }
+    }
+
+    /// Number `index` (from zero) of the tables `kind` inside this one; counted from one for people.
+    pub fn element(&self, kind: &str, index: usize, name: Option<&str>) -> Place {
+        let number = index + 1;
+        let own = match name {
+            Some(name) if !name.is_empty() => format!("{kind} \"{name}\""),
+            _ => format!("{kind} {number}"),
+        };
+        Place {
+            path: format!("{}[{number}]", self.key(kind)),
+            words: joined(&self.words, ", ", &own),
+        }
+    }
+
+    /// The key path of `key` in this table, or of the table itself when `key` is empty.
+    pub fn key(&self, key: &str) -> String {
+        joined(&self.path, ".", key)
+    }
+
+    /// This table in words.
+    pub fn words(&self) -> &str {
+        &self.words
+    }
+
+    /// A problem with `key` of this table. The message names key, rule and value.
+    pub fn problem(&self, key: &str, message: String) -> Problem {
+        Problem {
+            line: None,
+            key: self.key(key),
+            place: self.words.clone(),
+            message,
+        }
+    }
+}
+
+fn joined(left: &str, separator: &str, right: &str) -> String {
+    if left.is_empty() || right.is_empty() {
+        format!("{left}{right}")
+    } else {
+        format!("{left}{separator}{right}")
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&joined(&self.place, ": ", &self.message))
+    }
+}

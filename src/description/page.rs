@@ -1,0 +1,211 @@
+//! The documentation page inside the FMU: what this model is, how to drive it, every variable.
+
+use std::io;
+
+use quick_xml::events::{BytesText, Event};
+
+use super::{Xml, number, written};
+use crate::config::Config;
+use crate::interface::{Causality, Interface, Variable};
+use crate::model::ModalModel;
+use crate::train::GearTrain;
+
+const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}\
+table{border-collapse:collapse;width:100%;margin:1rem 0;font-size:.9em}\
+td,th{border-bottom:1px solid #ddd;padding:.3rem .6rem;text-align:left;vertical-align:top}\
+th{background:#f4f4f4}td.n{text-align:right;font-variant-numeric:tabular-nums}\
+code{background:#f4f4f4;padding:0 .2em}h1,h2{line-height:1.2}";
+
+/// The text of `documentation/index.html`, well-formed as XML too.
+pub fn documentation_page(
+    config: &Config,
+    train: &GearTrain,
+    model: &ModalModel,
+    interface: &Interface,
+) -> String {
+    let page = written(|html| {
+        let root = html.create_element("html").with_attribute(("lang", "en"));
+        root.write_inner_content(|html| {
+            html.create_element("head").write_inner_content(|html| {
+                html.create_element("meta")
+                    .with_attribute(("charset", "utf-8"))
+                    .write_empty()?;
+                text(html, "title", &config.name)?;
+                text(html, "style", STYLE)
+            })?;
+            html.create_element("body").write_inner_content(|html| {
+                text(html, "h1", &config.name)?;
+                text(html, "p", &config.description)?;
+                usage(html, config)?;
+                text(html, "h2", "Rotors")?;
+                rotors(html, train, model)?;
+                text(html, "h2", "Meshes")?;
+                meshes(html, train, model)?;
+                variables(html, interface)
+            })?;
+            Ok(())
+        })?;
+        Ok(())
+    });
+    format!("<!DOCTYPE html>\n{page}")
+}
+
+fn usage(html: &mut Xml, config: &Config) -> io::Result<()> {
+    let Config {
+        name, simulation, ..
+    } = config;
+    let paragraphs = [
+        format!(
+            "An FMI 2.0 co-simulation FMU made by geartrain {}: shafts reduced to their vibration modes, \
+             coupled by their gear meshes, on bearings that the gearbox shakes. Without any input it runs \
+             alone: fmpy simulate {name}.fmu",
+            env!("CARGO_PKG_VERSION")
+        ),
+        "To couple a gearbox structure, feed its displacement and velocity at each bearing into \
+         <rotor>.<bearing>.housing.x .y .vx .vy and return <rotor>.<bearing>.force_x and .force_y, the \
+         forces of the rotor on the gearbox. Angles, torques and speeds are positive about +z."
+            .to_string(),
+        format!(
+            "Any communication step works; inputs are held over a step, so that the step decides how well \
+             a changing input is seen ({} s is suggested). The slave takes its own steps inside, such that \
+             the RMS error of every mesh force stays within simulation.tolerance = {} of its RMS.",
+            simulation.step_size, simulation.tolerance
+        ),
+        "Parameters may be set until initialization ends. Initial state: the static solution with the mean \
+         mesh stiffness under the torques and gearbox displacements set by then (start = equilibrium), or \
+         rest. Calls out of order and numbers that are not finite are refused with a log message and change \
+         nothing."
+            .to_string(),
+    ];
+    paragraphs
+        .iter()
+        .try_for_each(|paragraph| text(html, "p", paragraph))
+}
+
+fn rotors(html: &mut Xml, train: &GearTrain, model: &ModalModel) -> io::Result<()> {
+    let head = [
+        "Rotor",
+        "Length [m]",
+        "Speed [rad/s]",
+        "Lateral frequencies [Hz]",
+        "Torsional frequencies [Hz]",
+    ];
+    table(html, &head, |html| {
+        for (rotor, modal) in train.rotors.iter().zip(&model.rotors) {
+            let list = |frequencies: &[f64]| {
+                let shown = frequencies.iter().filter(|&&hertz| hertz > 0.0);
+                shown
+                    .map(|hertz| format!("{hertz:.1}"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            };
+            let cells = [
+                rotor.name.clone(),
+                format!("{:.4}", rotor.length()),
+                format!("{:.4}", rotor.speed),
+                list(&modal.lateral_frequencies),
+                list(&modal.torsional_frequencies),
+            ];
+            row(html, &cells)?;
+        }
+        Ok(())
+    })
+}
+
+fn meshes(html: &mut Xml, train: &GearTrain, model: &ModalModel) -> io::Result<()> {
+    let head = [
+        "Mesh",
+        "Gear a",
+        "Gear b",
+        "Mesh frequency [Hz]",
+        "Mean stiffness [N/m]",
+        "Damping [N s/m]",
+    ];
+    table(html, &head, |html| {
+        for (mesh, modal) in train.meshes.iter().zip(&model.meshes) {
+            let [a, b] = mesh.gears.map(|gear| {
+                format!(
+                    "{}.{}",
+                    train.rotors[gear.rotor].name,
+                    train.gear(gear).name
+                )
+            });
+            let cells = [
+                mesh.name.clone(),
+                a,
+                b,
+                format!("{:.3}", modal.frequency()),
+                format!("{:.6e}", modal.mean_stiffness()),
+                format!("{:.1}", modal.damping),
+            ];
+            row(html, &cells)?;
+        }
+        Ok(())
+    })
+}
+
+fn variables(html: &mut Xml, interface: &Interface) -> io::Result<()> {
+    let groups = [
+        ("Inputs", Causality::Input),
+        ("Outputs", Causality::Output),
+        ("Parameters", Causality::Parameter),
+        ("Calculated parameters", Causality::CalculatedParameter),
+        ("Local variables", Causality::Local),
+    ];
+    for (title, causality) in groups {
+        let members: Vec<(usize, &Variable)> = interface
+            .variables
+            .iter()
+            .enumerate()
+            .filter(|(_, variable)| variable.causality() == causality)
+            .collect();
+        if members.is_empty() {
+            continue;
+        }
+        text(html, "h2", title)?;
+        table(
+            html,
+            &["Name", "Unit", "Start", "Description", "Reference"],
+            |html| {
+                for (reference, variable) in members {
+                    let cells = [
+                        variable.name.clone(),
+                        variable.unit.name().to_string(),
+                        variable.start.map(number).unwrap_or_default(),
+                        variable.description.clone(),
+                        reference.to_string(),
+                    ];
+                    row(html, &cells)?;
+                }
+                Ok(())
+            },
+        )?;
+    }
+    Ok(())
+}
+
+fn table(
+    html: &mut Xml,
+    head: &[&str],
+    rows: impl FnOnce(&mut Xml) -> io::Result<()>,
+) -> io::Result<()> {
+    html.create_element("table").write_inner_content(|html| {
+        html.create_element("tr").write_inner_content(|html| {
+            head.iter().try_for_each(|title| text(html, "th", title))
+        })?;
+        rows(html)
+    })?;
+    Ok(())
+}
+
+fn row(html: &mut Xml, cells: &[String]) -> io::Result<()> {
+    html.create_element("tr")
+        .write_inner_content(|html| cells.iter().try_for_each(|cell| text(html, "td", cell)))?;
+    Ok(())
+}
+
+fn text(html: &mut Xml, element: &str, content: &str) -> io::Result<()> {
+    html.create_element(element)
+        .write_inner_content(|html| html.write_event(Event::Text(BytesText::new(content))))?;
+    Ok(())
+}

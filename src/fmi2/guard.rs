@@ -1,0 +1,95 @@
+//! The one way from C into Rust: null check, legality, panics, messages.
+//!
+//! A [`Component`] that the master holds is a `Box<Instance>` made by fmi2Instantiate and consumed by
+//! fmi2FreeInstance. Every other call borrows it through [`call`].
+
+use core::cell::Cell;
+use core::panic::AssertUnwindSafe;
+use std::panic::{self, catch_unwind};
+use std::sync::Once;
+
+use super::abi::{Component, Status};
+use super::logger::{Category, Messages};
+use crate::slave::{Call, Error, Kind, Slave};
+
+/// What a component points to.
+pub(super) struct Instance {
+    pub(super) slave: Slave,
+    pub(super) messages: Messages,
+    /// After a panic nothing but free is trusted.
+    broken: bool,
+}
+
+impl Instance {
+    pub(super) fn new(slave: Slave, messages: Messages) -> Instance {
+        Instance {
+            slave,
+            messages,
+            broken: false,
+        }
+    }
+
+    /// Tells the master about an error and gives the status to return.
+    fn report(&self, function: &str, error: &Error) -> Status {
+        let (status, category) = match error.kind() {
+            Kind::Error => (Status::Error, Category::Error),
+            Kind::Discard => (Status::Discard, Category::Discard),
+        };
+        self.messages
+            .tell(status, category, &format!("{function}: {error}"));
+        status
+    }
+}
+
+/// Runs `body` on the instance behind `component`, if `needs` is legal in its state.
+///
+/// Never unwinds. NULL gives `fmi2Error`.
+pub(super) fn call(
+    component: Component,
+    function: &'static str,
+    needs: Call,
+    body: impl FnOnce(&mut Instance) -> Result<(), Error>,
+) -> Status {
+    // SAFETY: the master passes NULL or a component that fmi2Instantiate returned and fmi2FreeInstance
+    // has not seen, and calls one function at a time per component (FMI 2.0.4, 2.1.1 and 4.2.4).
+    let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else {
+        return Status::Error;
+    };
+    if instance.broken {
+        let error = Error::new("an earlier call failed inside the FMU; only free is possible");
+        return instance.report(function, &error);
+    }
+    let outcome = catching(|| {
+        instance.slave.permit(needs)?;
+        body(instance)
+    });
+    match outcome {
+        Some(Ok(())) => Status::Ok,
+        Some(Err(error)) => instance.report(function, &error),
+        None => {
+            instance.broken = true;
+            let error = Error::new("an internal error occurred; please report it with the model");
+            instance.report(function, &error)
+        }
+    }
+}
+
+/// Runs `body`; `None` when it panicked. Prints nothing.
+pub(super) fn catching<T>(body: impl FnOnce() -> T) -> Option<T> {
+    thread_local! {
+        static QUIET: Cell<bool> = const { Cell::new(false) };
+    }
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let before = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if !QUIET.get() {
+                before(info);
+            }
+        }));
+    });
+    let outer = QUIET.replace(true);
+    let outcome = catch_unwind(AssertUnwindSafe(body));
+    QUIET.set(outer);
+    outcome.ok()
+}

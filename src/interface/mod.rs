@@ -1,0 +1,240 @@
+//! The one table of everything the outside may see: name, causality, unit, meaning.
+//!
+//! A row's place in the table is its value reference. modelDescription.xml, get, set, start values and the
+//! documentation page are all made from this table; names are made nowhere else. Modal indices count from
+//! one here and from zero everywhere else.
+
+mod fingerprint;
+mod parameter;
+mod table;
+mod unit;
+
+use crate::config::Config;
+use crate::model::{ModalModel, Motion};
+use crate::train::{GearAddress, GearTrain};
+
+pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
+pub use unit::{BaseUnit, DisplayUnit, Unit};
+
+/// The table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interface {
+    /// The variables in the order of their value references.
+    pub variables: Vec<Variable>,
+}
+
+/// One scalar variable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Structured FMI name.
+    pub name: String,
+    /// One sentence for a stranger.
+    pub description: String,
+    /// Unit.
+    pub unit: Unit,
+    /// What it stands for.
+    pub quantity: Quantity,
+    /// Start value of inputs and parameters.
+    pub start: Option<f64>,
+}
+
+/// Causality, and with it FMI's variability and initial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Causality {
+    /// Time.
+    Independent,
+    /// Set by the master at any time; continuous.
+    Input,
+    /// For the master; continuous, calculated.
+    Output,
+    /// For plots; continuous, calculated.
+    Local,
+    /// Set until initialization ends; fixed, exact.
+    Parameter,
+    /// Follows from parameters; fixed, calculated.
+    CalculatedParameter,
+}
+
+/// What a variable stands for. Indices count from zero.
+#[expect(
+    missing_docs,
+    reason = "the fields are indices of what they are named after"
+)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Time.
+    Time,
+    /// External torque number `torque` of the inputs.
+    Torque { torque: usize },
+    /// Gearbox displacement at bearing number `bearing` of the inputs; axis 0 is x.
+    BaseDisplacement { bearing: usize, axis: usize },
+    /// Gearbox velocity at bearing number `bearing` of the inputs.
+    BaseVelocity { bearing: usize, axis: usize },
+    /// A number of the configuration.
+    Parameter(Parameter),
+    /// Speed that follows from the leader of the train.
+    DerivedSpeed { rotor: usize },
+    /// Natural frequency of a lateral basis mode.
+    LateralFrequency { rotor: usize, mode: usize },
+    /// Natural frequency of a torsional basis mode; `mode` counts the rigid rotation.
+    TorsionalFrequency { rotor: usize, mode: usize },
+    /// Normal force of a mesh.
+    MeshForce { mesh: usize },
+    /// Component of the mesh force on gear b.
+    MeshForceOnB { mesh: usize, axis: usize },
+    /// Tooth deflection.
+    MeshDeflection { mesh: usize },
+    /// Mesh stiffness.
+    MeshStiffness { mesh: usize },
+    /// Motion of a gear.
+    GearMotion {
+        gear: GearAddress,
+        direction: Direction,
+    },
+    /// Sum of the mesh torques on a gear.
+    GearTorque { gear: GearAddress },
+    /// Force of the rotor on the gearbox; `input` is the bearing's number among the inputs.
+    BearingForce {
+        rotor: usize,
+        bearing: usize,
+        input: usize,
+        axis: usize,
+    },
+    /// Shaft displacement at a bearing.
+    BearingMotion {
+        rotor: usize,
+        bearing: usize,
+        direction: Direction,
+    },
+    /// Motion of a probe.
+    ProbeMotion {
+        rotor: usize,
+        probe: usize,
+        direction: Direction,
+    },
+    /// Mean speed of a rotor.
+    Speed { rotor: usize },
+    /// Rotation angle of a rotor.
+    Angle { rotor: usize },
+    /// A modal coordinate.
+    Modal { coordinate: usize },
+}
+
+/// A direction of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// Rotation about z.
+    Theta,
+}
+
+impl Interface {
+    /// The table of a model: `config` gives the start values, `train` the names, `model` the numbers of
+    /// modes.
+    pub fn of(config: &Config, train: &GearTrain, model: &ModalModel) -> Interface {
+        table::build(config, train, model)
+    }
+
+    /// The FMU's guid: a fingerprint of this table, the model and the library's version.
+    pub fn fingerprint(&self, config: &Config) -> String {
+        fingerprint::fingerprint(self, config)
+    }
+
+    /// The inputs that a variable reacts to at the same instant, as indices into the table, ascending.
+    pub fn feed_through(&self, variable: &Variable) -> Vec<usize> {
+        let Quantity::BearingForce { input, .. } = variable.quantity else {
+            return Vec::new();
+        };
+        let acts = |variable: &Variable| match variable.quantity {
+            Quantity::BaseDisplacement { bearing, .. } | Quantity::BaseVelocity { bearing, .. } => {
+                bearing == input
+            }
+            _ => false,
+        };
+        (0..self.variables.len())
+            .filter(|&index| acts(&self.variables[index]))
+            .collect()
+    }
+}
+
+impl Variable {
+    /// The variable's causality.
+    pub fn causality(&self) -> Causality {
+        match self.quantity {
+            Quantity::Time => Causality::Independent,
+            Quantity::Torque { .. }
+            | Quantity::BaseDisplacement { .. }
+            | Quantity::BaseVelocity { .. } => Causality::Input,
+            Quantity::Parameter(_) => Causality::Parameter,
+            Quantity::DerivedSpeed { .. }
+            | Quantity::LateralFrequency { .. }
+            | Quantity::TorsionalFrequency { .. } => Causality::CalculatedParameter,
+            Quantity::Modal { .. } => Causality::Local,
+            _ => Causality::Output,
+        }
+    }
+}
+
+impl Quantity {
+    /// The value of everything that follows from model, state and inputs; parameters and speeds derived
+    /// from them are read from the configuration instead, and give NaN here.
+    pub fn evaluate(self, motion: &Motion<'_>) -> f64 {
+        let rotors = &motion.model.rotors;
+        match self {
+            Quantity::Time => motion.state.time,
+            Quantity::Torque { torque } => motion.inputs.torques[torque],
+            Quantity::BaseDisplacement { bearing, axis } => {
+                motion.inputs.bases[bearing].displacement[axis]
+            }
+            Quantity::BaseVelocity { bearing, axis } => motion.inputs.bases[bearing].velocity[axis],
+            Quantity::Parameter(_) | Quantity::DerivedSpeed { .. } => f64::NAN,
+            Quantity::LateralFrequency { rotor, mode } => rotors[rotor].lateral_frequencies[mode],
+            Quantity::TorsionalFrequency { rotor, mode } => {
+                rotors[rotor].torsional_frequencies[mode]
+            }
+            Quantity::MeshForce { mesh } => motion.mesh_force(mesh),
+            Quantity::MeshForceOnB { mesh, axis } => {
+                let [_, on_b] = motion.mesh_loads(mesh);
+                [on_b.x, on_b.y][axis]
+            }
+            Quantity::MeshDeflection { mesh } => motion.mesh_deflection(mesh),
+            Quantity::MeshStiffness { mesh } => motion.mesh_stiffness(mesh),
+            Quantity::GearMotion { gear, direction } => {
+                direction.of(&rotors[gear.rotor].gears[gear.gear], motion)
+            }
+            Quantity::GearTorque { gear } => motion.mesh_torque(gear),
+            Quantity::BearingForce {
+                rotor,
+                bearing,
+                input,
+                axis,
+            } => motion.bearing_force(&rotors[rotor].bearings[bearing], input)[axis],
+            Quantity::BearingMotion {
+                rotor,
+                bearing,
+                direction,
+            } => direction.of(&rotors[rotor].bearings[bearing].station, motion),
+            Quantity::ProbeMotion {
+                rotor,
+                probe,
+                direction,
+            } => direction.of(&rotors[rotor].probes[probe], motion),
+            Quantity::Speed { rotor } => rotors[rotor].speed,
+            Quantity::Angle { rotor } => motion.angle(rotor),
+            Quantity::Modal { coordinate } => motion.state.position[coordinate],
+        }
+    }
+}
+
+impl Direction {
+    fn of(self, station: &crate::model::Station, motion: &Motion<'_>) -> f64 {
+        motion.displacement(match self {
+            Direction::X => &station.x,
+            Direction::Y => &station.y,
+            Direction::Theta => &station.theta,
+        })
+    }
+}

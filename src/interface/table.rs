@@ -1,0 +1,490 @@
+//! The rows of the table, in the order in which a person would look for them.
+
+use super::parameter::{Parameter, PlanarEntry, VibrationEntry};
+use super::{Direction, Interface, Quantity, Unit, Variable};
+use crate::config::Config;
+use crate::model::{ModalModel, Rotor as ModalRotor};
+use crate::train::{GearAddress, GearTrain, Rotor, speed_ratios};
+
+const AXES: [&str; 2] = ["x", "y"];
+const LATERAL: [(&str, Direction); 2] = [("x", Direction::X), ("y", Direction::Y)];
+
+/// Collects rows.
+struct Table<'a> {
+    variables: Vec<Variable>,
+    config: &'a mut Config,
+}
+
+pub(super) fn build(config: &Config, train: &GearTrain, model: &ModalModel) -> Interface {
+    let mut config = config.clone();
+    let mut table = Table {
+        variables: Vec::new(),
+        config: &mut config,
+    };
+    table.row("time", Unit::Second, Quantity::Time, "Time");
+    table.inputs(train);
+    table.meshes(train);
+    let mut input = 0;
+    for (index, rotor) in train.rotors.iter().enumerate() {
+        table.rotor_outputs(index, rotor, &mut input);
+    }
+    table.parameters(train);
+    for (index, (rotor, modal)) in train.rotors.iter().zip(&model.rotors).enumerate() {
+        table.frequencies(index, rotor, modal);
+    }
+    for (rotor, modal) in train.rotors.iter().zip(&model.rotors) {
+        table.modal_coordinates(rotor, modal);
+    }
+    Interface {
+        variables: table.variables,
+    }
+}
+
+impl Table<'_> {
+    fn row(
+        &mut self,
+        name: impl Into<String>,
+        unit: Unit,
+        quantity: Quantity,
+        description: impl Into<String>,
+    ) {
+        let (name, description) = (name.into(), description.into());
+        self.variables.push(Variable {
+            name,
+            description,
+            unit,
+            quantity,
+            start: None,
+        });
+    }
+
+    fn input(
+        &mut self,
+        name: String,
+        unit: Unit,
+        quantity: Quantity,
+        start: f64,
+        description: String,
+    ) {
+        self.row(name, unit, quantity, description);
+        if let Some(row) = self.variables.last_mut() {
+            row.start = Some(start);
+        }
+    }
+
+    fn parameter(&mut self, name: String, unit: Unit, parameter: Parameter, description: String) {
+        let start = *parameter.slot(self.config);
+        self.input(
+            name,
+            unit,
+            Quantity::Parameter(parameter),
+            start,
+            description,
+        );
+    }
+
+    fn inputs(&mut self, train: &GearTrain) {
+        let (mut torque_number, mut bearing_number) = (0, 0);
+        for rotor in &train.rotors {
+            let shaft = &rotor.name;
+            for torque in &rotor.torques {
+                self.input(
+                    format!("{shaft}.{}.torque", torque.name),
+                    Unit::NewtonMeter,
+                    Quantity::Torque {
+                        torque: torque_number,
+                    },
+                    torque.value,
+                    format!(
+                        "External torque {} on {shaft}, positive about +z",
+                        torque.name
+                    ),
+                );
+                torque_number += 1;
+            }
+            for bearing in &rotor.bearings {
+                let (port, place) = (
+                    format!("{shaft}.{}.housing", bearing.name),
+                    format!("bearing {} of {shaft}", bearing.name),
+                );
+                for (axis, letter) in AXES.into_iter().enumerate() {
+                    let quantity = Quantity::BaseDisplacement {
+                        bearing: bearing_number,
+                        axis,
+                    };
+                    let text = format!("Displacement of the gearbox at {place} in {letter}");
+                    self.input(format!("{port}.{letter}"), Unit::Meter, quantity, 0.0, text);
+                }
+                for (axis, letter) in AXES.into_iter().enumerate() {
+                    let quantity = Quantity::BaseVelocity {
+                        bearing: bearing_number,
+                        axis,
+                    };
+                    let text = format!("Velocity of the gearbox at {place} in {letter}");
+                    self.input(
+                        format!("{port}.v{letter}"),
+                        Unit::MeterPerSecond,
+                        quantity,
+                        0.0,
+                        text,
+                    );
+                }
+                bearing_number += 1;
+            }
+        }
+    }
+
+    fn meshes(&mut self, train: &GearTrain) {
+        for (index, mesh) in train.meshes.iter().enumerate() {
+            let name = &mesh.name;
+            let force = Quantity::MeshForce { mesh: index };
+            let text = format!(
+                "Normal force of mesh {name} along the line of action, compression positive"
+            );
+            self.row(format!("{name}.force"), Unit::Newton, force, text);
+            let b = mesh.gears[1];
+            let gear_b = format!("{}.{}", train.rotors[b.rotor].name, train.gear(b).name);
+            for (axis, letter) in AXES.into_iter().enumerate() {
+                let quantity = Quantity::MeshForceOnB { mesh: index, axis };
+                let text = format!("Force of mesh {name} on gear {gear_b} in {letter}");
+                self.row(
+                    format!("{name}.force_{letter}"),
+                    Unit::Newton,
+                    quantity,
+                    text,
+                );
+            }
+            let text = format!(
+                "Tooth deflection of mesh {name} (dynamic transmission error), compression positive"
+            );
+            let quantity = Quantity::MeshDeflection { mesh: index };
+            self.row(format!("{name}.deflection"), Unit::Meter, quantity, text);
+            let quantity = Quantity::MeshStiffness { mesh: index };
+            let text = format!("Present stiffness of mesh {name}");
+            self.row(
+                format!("{name}.stiffness"),
+                Unit::NewtonPerMeter,
+                quantity,
+                text,
+            );
+        }
+    }
+
+    /// `input` counts the bearings of all rotors.
+    fn rotor_outputs(&mut self, index: usize, rotor: &Rotor, input: &mut usize) {
+        let shaft = &rotor.name;
+        for (number, gear) in rotor.gears.iter().enumerate() {
+            let address = GearAddress {
+                rotor: index,
+                gear: number,
+            };
+            let place = format!("gear {} of {shaft}", gear.name);
+            let motion = |direction| Quantity::GearMotion {
+                gear: address,
+                direction,
+            };
+            self.motion(&format!("{shaft}.{}", gear.name), &place, motion);
+            self.row(
+                format!("{shaft}.{}.mesh_torque", gear.name),
+                Unit::NewtonMeter,
+                Quantity::GearTorque { gear: address },
+                format!("Sum of the mesh torques on {place}"),
+            );
+        }
+        for (number, bearing) in rotor.bearings.iter().enumerate() {
+            let (port, place) = (
+                format!("{shaft}.{}", bearing.name),
+                format!("bearing {} of {shaft}", bearing.name),
+            );
+            for (axis, letter) in AXES.into_iter().enumerate() {
+                let quantity = Quantity::BearingForce {
+                    rotor: index,
+                    bearing: number,
+                    input: *input,
+                    axis,
+                };
+                let text = format!("Force of the rotor on the gearbox through {place} in {letter}");
+                self.row(
+                    format!("{port}.force_{letter}"),
+                    Unit::Newton,
+                    quantity,
+                    text,
+                );
+            }
+            for (letter, direction) in LATERAL {
+                let quantity = Quantity::BearingMotion {
+                    rotor: index,
+                    bearing: number,
+                    direction,
+                };
+                let text = format!("Displacement of the shaft at {place} in {letter}");
+                self.row(format!("{port}.{letter}"), Unit::Meter, quantity, text);
+            }
+            *input += 1;
+        }
+        for (number, probe) in rotor.probes.iter().enumerate() {
+            let place = format!("probe {} of {shaft}", probe.name);
+            let motion = |direction| Quantity::ProbeMotion {
+                rotor: index,
+                probe: number,
+                direction,
+            };
+            self.motion(&format!("{shaft}.{}", probe.name), &place, motion);
+        }
+        let speed = Quantity::Speed { rotor: index };
+        let text = format!("Mean speed of {shaft}, positive about +z");
+        self.row(format!("{shaft}.speed"), Unit::RadianPerSecond, speed, text);
+        let text = format!("Mean rotation angle of {shaft}, not wrapped");
+        self.row(
+            format!("{shaft}.angle"),
+            Unit::Radian,
+            Quantity::Angle { rotor: index },
+            text,
+        );
+    }
+
+    /// x, y and theta of a place.
+    fn motion(&mut self, prefix: &str, place: &str, quantity: impl Fn(Direction) -> Quantity) {
+        for (letter, direction) in LATERAL {
+            let text = format!("Displacement of {place} in {letter}");
+            self.row(
+                format!("{prefix}.{letter}"),
+                Unit::Meter,
+                quantity(direction),
+                text,
+            );
+        }
+        let text = format!("Torsional vibration of {place} on top of the mean rotation");
+        self.row(
+            format!("{prefix}.theta"),
+            Unit::Radian,
+            quantity(Direction::Theta),
+            text,
+        );
+    }
+
+    fn parameters(&mut self, train: &GearTrain) {
+        let ratios = speed_ratios(train);
+        for (index, rotor) in train.rotors.iter().enumerate() {
+            let name = format!("{}.mean_speed", rotor.name);
+            if ratios[index].leader == index {
+                let text = format!("Mean speed of {}; rotors meshed with it follow", rotor.name);
+                self.parameter(
+                    name,
+                    Unit::RadianPerSecond,
+                    Parameter::MeanSpeed { rotor: index },
+                    text,
+                );
+            } else {
+                let leader = &train.rotors[ratios[index].leader].name;
+                let text = format!(
+                    "Mean speed of {}, follows from {leader}.mean_speed",
+                    rotor.name
+                );
+                self.row(
+                    name,
+                    Unit::RadianPerSecond,
+                    Quantity::DerivedSpeed { rotor: index },
+                    text,
+                );
+            }
+            self.rotor_parameters(index, rotor);
+        }
+        for (index, mesh) in train.meshes.iter().enumerate() {
+            let parameter = Parameter::StiffnessFactor { mesh: index };
+            let text = format!("Factor on the stiffness of mesh {}", mesh.name);
+            self.parameter(
+                format!("{}.stiffness_factor", mesh.name),
+                Unit::One,
+                parameter,
+                text,
+            );
+        }
+        let vibration = [
+            (
+                "amplitude_x",
+                Unit::Meter,
+                VibrationEntry::AmplitudeX,
+                "Amplitude in x",
+            ),
+            (
+                "amplitude_y",
+                Unit::Meter,
+                VibrationEntry::AmplitudeY,
+                "Amplitude in y",
+            ),
+            (
+                "phase_y",
+                Unit::Radian,
+                VibrationEntry::PhaseY,
+                "Phase of y ahead of x",
+            ),
+            (
+                "frequency",
+                Unit::Hertz,
+                VibrationEntry::Frequency,
+                "Frequency",
+            ),
+        ];
+        for (name, unit, entry, what) in vibration {
+            let text = format!(
+                "{what} of a sinusoidal motion of all bearing supports, added to the inputs"
+            );
+            self.parameter(
+                format!("gearbox_vibration.{name}"),
+                unit,
+                Parameter::Vibration(entry),
+                text,
+            );
+        }
+        self.parameter(
+            "simulation.tolerance".to_string(),
+            Unit::One,
+            Parameter::Tolerance,
+            "Bound on the RMS error of every mesh force relative to its RMS".to_string(),
+        );
+    }
+
+    fn rotor_parameters(&mut self, index: usize, rotor: &Rotor) {
+        let shaft = &rotor.name;
+        let ratios = [
+            ("lateral", Parameter::LateralDampingRatio { rotor: index }),
+            (
+                "torsional",
+                Parameter::TorsionalDampingRatio { rotor: index },
+            ),
+        ];
+        for (kind, parameter) in ratios {
+            let text = format!("Modal damping ratio of the elastic {kind} modes of {shaft}");
+            self.parameter(
+                format!("{shaft}.{kind}_damping_ratio"),
+                Unit::One,
+                parameter,
+                text,
+            );
+        }
+        for (bearing, data) in rotor.bearings.iter().enumerate() {
+            let place = format!("bearing {} of {shaft}", data.name);
+            for (letters, entry) in PlanarEntry::NAMED {
+                let parameter = Parameter::BearingStiffness {
+                    rotor: index,
+                    bearing,
+                    entry,
+                };
+                let name = format!("{shaft}.{}.stiffness.{letters}", data.name);
+                let text = format!("Stiffness {letters} of {place}");
+                self.parameter(name, Unit::NewtonPerMeter, parameter, text);
+            }
+            for (letters, entry) in PlanarEntry::NAMED {
+                let parameter = Parameter::BearingDamping {
+                    rotor: index,
+                    bearing,
+                    entry,
+                };
+                let name = format!("{shaft}.{}.damping.{letters}", data.name);
+                let text = format!("Damping {letters} of {place}");
+                self.parameter(name, Unit::NewtonSecondPerMeter, parameter, text);
+            }
+        }
+        for (unbalance, data) in rotor.unbalances.iter().enumerate() {
+            let (prefix, place) = (
+                format!("{shaft}.{}", data.name),
+                format!("unbalance {} of {shaft}", data.name),
+            );
+            let parameter = Parameter::UnbalanceMoment {
+                rotor: index,
+                unbalance,
+            };
+            let text = format!("Mass times eccentricity of {place}");
+            self.parameter(
+                format!("{prefix}.moment"),
+                Unit::KilogramMeter,
+                parameter,
+                text,
+            );
+            let parameter = Parameter::UnbalancePhase {
+                rotor: index,
+                unbalance,
+            };
+            let text = format!("Direction of {place} relative to the rotation angle");
+            self.parameter(format!("{prefix}.phase"), Unit::Radian, parameter, text);
+        }
+    }
+
+    fn frequencies(&mut self, index: usize, rotor: &Rotor, modal: &ModalRotor) {
+        let shaft = &rotor.name;
+        for mode in 0..modal.counts.lateral {
+            let number = mode + 1;
+            let quantity = Quantity::LateralFrequency { rotor: index, mode };
+            let text = format!("Natural frequency of lateral mode {number} of {shaft} alone");
+            self.row(
+                format!("{shaft}.lateral_frequency[{number}]"),
+                Unit::Hertz,
+                quantity,
+                text,
+            );
+        }
+        let rigid = usize::from(modal.has_rigid_rotation);
+        for mode in rigid..modal.counts.torsional {
+            let number = mode + 1 - rigid;
+            let quantity = Quantity::TorsionalFrequency { rotor: index, mode };
+            let text =
+                format!("Natural frequency of elastic torsional mode {number} of {shaft} alone");
+            self.row(
+                format!("{shaft}.torsional_frequency[{number}]"),
+                Unit::Hertz,
+                quantity,
+                text,
+            );
+        }
+    }
+
+    fn modal_coordinates(&mut self, rotor: &Rotor, modal: &ModalRotor) {
+        let shaft = &rotor.name;
+        let (n, offset) = (modal.counts.lateral, modal.offset);
+        for (plane, letter) in AXES.into_iter().enumerate() {
+            for mode in 0..n {
+                let number = mode + 1;
+                let quantity = Quantity::Modal {
+                    coordinate: offset + plane * n + mode,
+                };
+                let text = format!(
+                    "Modal coordinate of lateral mode {number} of {shaft} in {letter}, mass normalised"
+                );
+                self.row(
+                    format!("{shaft}.modal.{letter}[{number}]"),
+                    Unit::One,
+                    quantity,
+                    text,
+                );
+            }
+        }
+        let (first, rigid) = (offset + 2 * n, usize::from(modal.has_rigid_rotation));
+        if modal.has_rigid_rotation {
+            let quantity = Quantity::Modal { coordinate: first };
+            let text =
+                format!("Modal coordinate of the rigid rotation of {shaft}, mass normalised");
+            self.row(
+                format!("{shaft}.modal.theta_rigid"),
+                Unit::One,
+                quantity,
+                text,
+            );
+        }
+        for mode in rigid..modal.counts.torsional {
+            let number = mode + 1 - rigid;
+            let quantity = Quantity::Modal {
+                coordinate: first + mode,
+            };
+            let text = format!(
+                "Modal coordinate of elastic torsional mode {number} of {shaft}, mass normalised"
+            );
+            self.row(
+                format!("{shaft}.modal.theta[{number}]"),
+                Unit::One,
+                quantity,
+                text,
+            );
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! From the text of a model file and a compiled library to the parts of an FMU.
+//!
+//! The roof of the house: everything below is used once, in order. Writing the zip file is the business of
+//! the crate `fmu-build`.
+
+use core::fmt;
+
+use crate::config::Problem;
+use crate::description::{documentation_page, model_description};
+use crate::fmi2::payload::{ImplantError, implant};
+use crate::interface::Interface;
+use crate::model::{Inputs, ModalModel, equilibrium};
+use crate::rotor::NoModes;
+use crate::train::{GearTrain, Loaded, load};
+
+/// The parts of an FMU that depend on the model.
+#[derive(Debug, Clone)]
+pub struct Package {
+    /// FMI modelIdentifier.
+    pub model_identifier: String,
+    /// modelDescription.xml.
+    pub model_description: String,
+    /// `documentation/index.html`.
+    pub documentation: String,
+    /// What is allowed but probably not meant.
+    pub warnings: Vec<Problem>,
+    /// The model in the form that the library carries.
+    model: Vec<u8>,
+}
+
+/// Why a model file cannot be packed.
+#[derive(Debug)]
+pub enum PackageError {
+    /// The file breaks rules; all of them.
+    Invalid(Vec<Problem>),
+    /// The rotors have no modes.
+    NoModes(NoModes),
+}
+
+impl Package {
+    /// Reads, validates and describes a model.
+    pub fn of(text: &str) -> Result<Package, PackageError> {
+        let Loaded {
+            config,
+            train,
+            mut warnings,
+        } = load(text).map_err(PackageError::Invalid)?;
+        let model = ModalModel::assemble(&train, None).map_err(PackageError::NoModes)?;
+        let interface = Interface::of(&config, &train, &model);
+        warnings.extend(contradicting_flanks(&train, &model));
+        Ok(Package {
+            model_description: model_description(&config, &interface),
+            documentation: documentation_page(&config, &train, &model, &interface),
+            warnings,
+            model: config.to_bytes(),
+            model_identifier: config.name,
+        })
+    }
+
+    /// The library with the model in it.
+    pub fn implant(&self, mut library: Vec<u8>) -> Result<Vec<u8>, ImplantError> {
+        implant(&mut library, &self.model)?;
+        Ok(library)
+    }
+}
+
+/// Meshes that the torques pull apart, and trains that cannot start in equilibrium.
+fn contradicting_flanks(train: &GearTrain, model: &ModalModel) -> Vec<Problem> {
+    let torques = train
+        .rotors
+        .iter()
+        .flat_map(|rotor| &rotor.torques)
+        .map(|torque| torque.value);
+    let inputs = Inputs::at_rest(torques.collect(), model.bearings().count());
+    let problem = |key: String, place: String, message: String| Problem {
+        line: None,
+        key,
+        place,
+        message,
+    };
+    let forces = match equilibrium(model, &inputs) {
+        Ok(equilibrium) => equilibrium.mesh_forces,
+        Err(error) => {
+            let place = "simulation".to_string();
+            return vec![problem(
+                "simulation.start".to_string(),
+                place,
+                format!("start: {error}"),
+            )];
+        }
+    };
+    let mut warnings = Vec::new();
+    for (index, (mesh, force)) in train.meshes.iter().zip(forces).enumerate() {
+        if force < 0.0 {
+            let message = format!(
+                "flank: the torques give a static mesh force of {force:.3} N, which pulls this flank apart; \
+                 with bilateral contact the mesh works as if glued, the other flank is probably meant"
+            );
+            let key = format!("mesh[{}].flank", index + 1);
+            warnings.push(problem(key, format!("mesh \"{}\"", mesh.name), message));
+        }
+    }
+    warnings
+}
+
+impl fmt::Display for PackageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PackageError::Invalid(problems) => {
+                let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                f.write_str(&lines.join("\n"))
+            }
+            PackageError::NoModes(error) => error.fmt(f),
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! A model that moves: state, inputs and solver together.
+//!
+//! [`Simulation::advance_to`] lands exactly on the time asked for; [`Simulation::motion`] shows what the
+//! outside sees, evaluated with the inputs as they are now. A [`Snapshot`] is everything that influences a
+//! later step. Knows no FMI.
+
+use crate::config::Start;
+use crate::model::{
+    Equilibrium, Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium,
+};
+use crate::solver::{Counts, Newmark, State, StepError};
+
+/// A running simulation.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    model: ModalModel,
+    state: State,
+    inputs: Inputs,
+    /// Generalized load of the inputs during a step.
+    held: Vec<f64>,
+    solver: Newmark,
+    tolerance: f64,
+}
+
+/// Everything that influences a later step of the same model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    state: State,
+    inputs: Inputs,
+}
+
+impl Simulation {
+    /// Starts at `time` from the static solution under the inputs, or from rest. `tolerance`: see
+    /// [`crate::config::Simulation::tolerance`].
+    pub fn start(
+        model: ModalModel,
+        inputs: Inputs,
+        start: Start,
+        time: f64,
+        tolerance: f64,
+    ) -> Result<Simulation, NoEquilibrium> {
+        let mut state = model.system.rest(time);
+        if start == Start::Equilibrium {
+            let Equilibrium { position, .. } = equilibrium(&model, &inputs)?;
+            state.position = position;
+        }
+        let solver = Newmark::new(&model.system);
+        let held = vec![0.0; model.system.size];
+        Ok(Simulation {
+            model,
+            state,
+            inputs,
+            held,
+            solver,
+            tolerance,
+        })
+    }
+
+    /// Integrates to exactly `time` with the inputs held. After an error the simulation is as before.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), StepError> {
+        self.inputs.load_into(&self.model, &mut self.held);
+        let excitation = Excitation::new(&self.model, &self.held);
+        let system = &self.model.system;
+        self.solver
+            .advance_to(system, &excitation, &mut self.state, time, self.tolerance)
+    }
+
+    /// The inputs that hold from now on, to be changed.
+    pub fn inputs_mut(&mut self) -> &mut Inputs {
+        &mut self.inputs
+    }
+
+    /// What the outside sees now.
+    pub fn motion(&self) -> Motion<'_> {
+        Motion {
+            model: &self.model,
+            state: &self.state,
+            inputs: &self.inputs,
+        }
+    }
+
+    /// Present time [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// The assembled model.
+    pub fn model(&self) -> &ModalModel {
+        &self.model
+    }
+
+    /// Work done so far.
+    pub fn counts(&self) -> Counts {
+        self.solver.counts()
+    }
+
+    /// Saves everything that influences a later step.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            state: self.state.clone(),
+            inputs: self.inputs.clone(),
+        }
+    }
+
+    /// Continues from a snapshot of the same model, to the bit.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.state.clone_from(&snapshot.state);
+        self.inputs.clone_from(&snapshot.inputs);
+    }
+}

@@ -1,0 +1,428 @@
+//! The FMI 2.0 co-simulation slave in safe Rust: life cycle, parameters, inputs, steps.
+//!
+//! ```text
+//!   instantiate -> Instantiated -> Initialization -> Stepping -> Terminated
+//!                                                       └-> Failed        (reset leads back from anywhere)
+//! ```
+//!
+//! A parameter is written into the configuration; the model is assembled anew when something that needs
+//! it is asked for, at the latest on leaving initialization. A rejected call changes nothing. The only
+//! module that knows FMI's modes; knows no pointers.
+
+mod calls;
+mod error;
+
+use crate::config::{Config, Start};
+use crate::interface::{Causality, Interface, Parameter, Quantity};
+use crate::model::{Inputs, ModalModel, Motion};
+use crate::rotor::ModeCounts;
+use crate::simulation::Simulation;
+use crate::train::{SpeedRatio, speed_ratios, validate};
+
+pub use calls::{Call, LifeCycle};
+pub use error::{Error, Kind};
+
+/// One instance of an FMU.
+#[derive(Debug, Clone)]
+pub struct Slave {
+    design: Design,
+    /// The configuration with the parameters set so far.
+    config: Config,
+    inputs: Inputs,
+    life_cycle: LifeCycle,
+    experiment: Option<Experiment>,
+    /// Whether the master set `simulation.tolerance` itself.
+    tolerance_set: bool,
+    /// The model under the present parameters, started under the present inputs; `None` when either changed
+    /// before step mode.
+    simulation: Option<Simulation>,
+}
+
+/// What never changes: the model as it was packed.
+#[derive(Debug, Clone)]
+struct Design {
+    config: Config,
+    interface: Interface,
+    guid: String,
+    /// Kept when parameters change, because the variables of the modes are fixed.
+    mode_counts: Vec<ModeCounts>,
+    ratios: Vec<SpeedRatio>,
+    torques: Vec<f64>,
+    bearings: usize,
+    model: ModalModel,
+}
+
+/// What fmi2SetupExperiment says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Experiment {
+    /// Relative tolerance, when the master gives one.
+    pub tolerance: Option<f64>,
+    /// Start time [s].
+    pub start: f64,
+    /// Stop time [s], when the master gives one.
+    pub stop: Option<f64>,
+}
+
+/// Communication points may differ from the slave's time by this part of the step, and this part of
+/// the time itself: masters add up steps in floating point.
+const TIME_SLACK: (f64, f64) = (1e-3, 1e-9);
+
+impl Slave {
+    /// An instance of a packed model (see [`Config::to_bytes`]).
+    pub fn new(model: &[u8]) -> Result<Slave, Error> {
+        let config = Config::from_bytes(model).ok_or_else(|| {
+            Error::new("the model inside this library cannot be read; the file is damaged")
+        })?;
+        let design = Design::of(config)?;
+        let inputs = Inputs::at_rest(design.torques.clone(), design.bearings);
+        Ok(Slave {
+            config: design.config.clone(),
+            inputs,
+            life_cycle: LifeCycle::Instantiated,
+            experiment: None,
+            tolerance_set: false,
+            simulation: None,
+            design,
+        })
+    }
+
+    /// The table of variables.
+    pub fn interface(&self) -> &Interface {
+        &self.design.interface
+    }
+
+    /// The fingerprint of interface and model that modelDescription.xml carries.
+    pub fn guid(&self) -> &str {
+        &self.design.guid
+    }
+
+    /// Where the slave is in its life.
+    pub fn life_cycle(&self) -> LifeCycle {
+        self.life_cycle
+    }
+
+    /// Refuses a call that is not legal now.
+    pub fn permit(&self, call: Call) -> Result<(), Error> {
+        if call.legal_in().contains(&self.life_cycle) {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "this call is not allowed in {}",
+            self.life_cycle.words()
+        )))
+    }
+
+    /// fmi2SetupExperiment.
+    pub fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Error> {
+        let Experiment {
+            tolerance,
+            start,
+            stop,
+        } = experiment;
+        if !start.is_finite() {
+            return Err(Error::new(format!(
+                "the start time must be a finite number, found {start}"
+            )));
+        }
+        if let Some(stop) = stop.filter(|&stop| stop.is_nan() || stop < start) {
+            let rule = format!("the stop time must not be before the start time {start} s");
+            return Err(Error::new(format!("{rule}, found {stop}")));
+        }
+        if let Some(tolerance) = tolerance.filter(|&value| value.is_nan() || value <= 0.0) {
+            return Err(Error::new(format!(
+                "the tolerance must be greater than 0, found {tolerance}"
+            )));
+        }
+        self.experiment = Some(experiment);
+        self.simulation = None;
+        Ok(())
+    }
+
+    /// fmi2EnterInitializationMode.
+    pub fn enter_initialization(&mut self) -> Result<(), Error> {
+        if self.experiment.is_none() {
+            return Err(Error::new(
+                "fmi2SetupExperiment must be called before initialization",
+            ));
+        }
+        self.life_cycle = LifeCycle::Initialization;
+        Ok(())
+    }
+
+    /// fmi2ExitInitializationMode: assembles the model with all parameters set.
+    pub fn exit_initialization(&mut self) -> Result<(), Error> {
+        self.started()?;
+        self.life_cycle = LifeCycle::Stepping;
+        Ok(())
+    }
+
+    /// fmi2Terminate.
+    pub fn terminate(&mut self) {
+        self.life_cycle = LifeCycle::Terminated;
+    }
+
+    /// fmi2Reset: as after instantiation.
+    pub fn reset(&mut self) {
+        self.config.clone_from(&self.design.config);
+        self.inputs = Inputs::at_rest(self.design.torques.clone(), self.design.bearings);
+        self.life_cycle = LifeCycle::Instantiated;
+        self.experiment = None;
+        self.tolerance_set = false;
+        self.simulation = None;
+    }
+
+    /// fmi2GetReal: overwrites `values`, one per reference. Parameters and inputs are readable from the
+    /// start, everything else from initialization on.
+    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        for &reference in references {
+            self.design.variable(reference)?;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            *value = self.read(reference)?;
+        }
+        Ok(())
+    }
+
+    /// fmi2SetReal: all or nothing.
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
+        for (&reference, &value) in references.iter().zip(values) {
+            self.check_settable(reference, value)?;
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            self.write(reference, value)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses references of a base type that has no variables here.
+    pub fn no_variables_of_type(&self, base_type: &str, references: &[u32]) -> Result<(), Error> {
+        match references.first() {
+            None => Ok(()),
+            Some(reference) => Err(Error::new(format!(
+                "value reference {reference} is unknown: this FMU has no {base_type} variables"
+            ))),
+        }
+    }
+
+    /// fmi2DoStep: from the communication point `time` to exactly `time + step`.
+    pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Error> {
+        let Some(simulation) = &mut self.simulation else {
+            return Err(Error::new("the simulation has not been started"));
+        };
+        if step.is_nan() || step <= 0.0 || step.is_infinite() {
+            return Err(Error::new(format!(
+                "the communication step must be greater than 0 and finite, found {step} s"
+            )));
+        }
+        let (now, end) = (simulation.time(), time + step);
+        let slack = TIME_SLACK.0 * step + TIME_SLACK.1 * now.abs().max(time.abs());
+        if (time - now).is_nan() || (time - now).abs() > slack {
+            return Err(Error::new(format!(
+                "the step starts at {time} s, but the slave is at {now} s"
+            )));
+        }
+        if let Some(Experiment {
+            start,
+            stop: Some(stop),
+            ..
+        }) = self.experiment
+        {
+            if end > stop + 1e-9 * (stop - start).max(f64::MIN_POSITIVE) {
+                return Err(Error::new(format!(
+                    "the step from {time} s by {step} s ends after the stop time {stop} s"
+                )));
+            }
+        }
+        simulation.advance_to(end).map_err(|error| {
+            self.life_cycle = LifeCycle::Failed;
+            Error::new(format!(
+                "the step from {time} s by {step} s failed: {error}"
+            ))
+        })
+    }
+
+    /// End of the last successful step [s].
+    pub fn last_successful_time(&self) -> f64 {
+        self.simulation.as_ref().map_or(0.0, Simulation::time)
+    }
+
+    fn read(&mut self, reference: u32) -> Result<f64, Error> {
+        let quantity = self.design.variable(reference)?.quantity;
+        match quantity {
+            Quantity::Parameter(parameter) => Ok(*parameter.slot(&mut self.config)),
+            Quantity::DerivedSpeed { rotor } => Ok(self.config.rotors[rotor].speed),
+            Quantity::Torque { .. }
+            | Quantity::BaseDisplacement { .. }
+            | Quantity::BaseVelocity { .. } => Ok(self.read_input(quantity)),
+            _ if self.life_cycle == LifeCycle::Instantiated => {
+                let name = &self.design.variable(reference)?.name;
+                Err(Error::new(format!(
+                    "{name} can be read from initialization mode on"
+                )))
+            }
+            _ => Ok(quantity.evaluate(&self.started()?.motion())),
+        }
+    }
+
+    fn read_input(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Torque { torque } => self.inputs.torques[torque],
+            Quantity::BaseDisplacement { bearing, axis } => {
+                self.inputs.bases[bearing].displacement[axis]
+            }
+            Quantity::BaseVelocity { bearing, axis } => self.inputs.bases[bearing].velocity[axis],
+            _ => f64::NAN,
+        }
+    }
+
+    fn check_settable(&self, reference: u32, value: f64) -> Result<(), Error> {
+        let variable = self.design.variable(reference)?;
+        let name = &variable.name;
+        match variable.causality() {
+            Causality::Input => {}
+            Causality::Parameter if self.life_cycle != LifeCycle::Stepping => {}
+            Causality::Parameter => {
+                return Err(Error::new(format!(
+                    "parameter {name} can only be set until initialization ends"
+                )));
+            }
+            _ => {
+                return Err(Error::new(format!(
+                    "{name} is neither an input nor a parameter and cannot be set"
+                )));
+            }
+        }
+        if !value.is_finite() {
+            return Err(Error::new(format!(
+                "{name} must be a finite number, found {value}"
+            )));
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, reference: u32, value: f64) -> Result<(), Error> {
+        match self.design.variable(reference)?.quantity {
+            Quantity::Parameter(parameter) => {
+                *parameter.slot(&mut self.config) = value;
+                self.tolerance_set |= parameter == Parameter::Tolerance;
+                for (rotor, ratio) in self.config.rotors.iter_mut().zip(&self.design.ratios) {
+                    if (Parameter::MeanSpeed {
+                        rotor: ratio.leader,
+                    }) == parameter
+                    {
+                        rotor.speed = value * ratio.ratio;
+                    }
+                }
+                self.simulation = None;
+            }
+            quantity => {
+                if self.life_cycle != LifeCycle::Stepping {
+                    self.simulation = None; // the equilibrium depends on the inputs
+                }
+                let running = self.simulation.as_mut().map(Simulation::inputs_mut);
+                for inputs in running.into_iter().chain([&mut self.inputs]) {
+                    match quantity {
+                        Quantity::Torque { torque } => inputs.torques[torque] = value,
+                        Quantity::BaseDisplacement { bearing, axis } => {
+                            inputs.bases[bearing].displacement[axis] = value;
+                        }
+                        Quantity::BaseVelocity { bearing, axis } => {
+                            inputs.bases[bearing].velocity[axis] = value;
+                        }
+                        _ => {}
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The simulation under the present parameters and inputs, started if need be.
+    fn started(&mut self) -> Result<&mut Simulation, Error> {
+        let simulation = match self.simulation.take() {
+            Some(simulation) => simulation,
+            None => self.start()?,
+        };
+        Ok(self.simulation.insert(simulation))
+    }
+
+    fn start(&self) -> Result<Simulation, Error> {
+        let experiment = self.experiment.unwrap_or(Experiment {
+            tolerance: None,
+            start: 0.0,
+            stop: None,
+        });
+        let mut config = self.config.clone();
+        if let (Some(tolerance), false) = (experiment.tolerance, self.tolerance_set) {
+            config.simulation.tolerance = tolerance.min(0.1);
+        }
+        let model = self.design.assemble(&config)?;
+        let start: Start = config.simulation.start;
+        Simulation::start(
+            model,
+            self.inputs.clone(),
+            start,
+            experiment.start,
+            config.simulation.tolerance,
+        )
+        .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
+    }
+}
+
+impl Design {
+    fn of(config: Config) -> Result<Design, Error> {
+        let (train, _) = validate(&config).map_err(|problems| joined(&problems))?;
+        let model =
+            ModalModel::assemble(&train, None).map_err(|error| Error::new(error.to_string()))?;
+        let interface = Interface::of(&config, &train, &model);
+        Ok(Design {
+            guid: interface.fingerprint(&config),
+            mode_counts: model.counts(),
+            ratios: speed_ratios(&train),
+            torques: train
+                .rotors
+                .iter()
+                .flat_map(|rotor| &rotor.torques)
+                .map(|torque| torque.value)
+                .collect(),
+            bearings: model.bearings().count(),
+            interface,
+            config,
+            model,
+        })
+    }
+
+    fn variable(&self, reference: u32) -> Result<&crate::interface::Variable, Error> {
+        let index = usize::try_from(reference).unwrap_or(usize::MAX);
+        self.interface.variables.get(index).ok_or_else(|| {
+            Error::new(format!(
+                "value reference {reference} is unknown to this FMU"
+            ))
+        })
+    }
+
+    /// The model under these parameters; the packed one when nothing that it depends on was changed.
+    fn assemble(&self, config: &Config) -> Result<ModalModel, Error> {
+        let (train, _) = validate(config).map_err(|problems| joined(&problems))?;
+        let mut comparable = config.clone();
+        comparable.simulation.clone_from(&self.config.simulation);
+        if comparable == self.config {
+            return Ok(self.model.clone());
+        }
+        ModalModel::assemble(&train, Some(&self.mode_counts))
+            .map_err(|error| Error::new(error.to_string()))
+    }
+}
+
+fn joined(problems: &[crate::config::Problem]) -> Error {
+    let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    Error::new(format!("the model is not valid: {}", sentences.join("; ")))
+}
+
+/// The outside's view of a running slave, for tests and tools in this crate.
+impl Slave {
+    /// What can be seen now; `None` before the simulation has started.
+    pub fn motion(&self) -> Option<Motion<'_>> {
+        self.simulation.as_ref().map(Simulation::motion)
+    }
+}

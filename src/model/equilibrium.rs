@@ -167,8 +167,9 @@ fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
         return DMatrix::zeros(0, 0);
     }
     let eigen = (matrix.transpose() * matrix).symmetric_eigen();
-    // Squares of singular values: 1e-20 of the largest is 1e-10 of a radius.
-    let limit = 1e-20 * eigen.eigenvalues.amax();
+    // Squares of singular values: rounding leaves 1e-16 of the largest, a tooth contact far above 1e-6 of
+    // the largest radius has more than 1e-12.
+    let limit = 1e-12 * eigen.eigenvalues.amax();
     let zero = |&i: &usize| eigen.eigenvalues[i] <= limit.max(f64::MIN_POSITIVE);
     let columns: Vec<DVector<f64>> = (0..n)
         .filter(zero)

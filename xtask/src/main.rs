@@ -1,2 +1,57 @@
-//! x
-fn main() {}
+//! The project's commands: `cargo xtask <command>`. Parses, calls, prints.
+
+#![allow(clippy::print_stdout, clippy::print_stderr)] // a command line talks
+
+mod demo;
+mod golden;
+mod inspect;
+mod pack;
+mod python;
+mod shell;
+mod test;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask <command>
+
+  fmu MODEL.toml... [--out DIR]   pack FMUs (default folder: target/fmu)
+  inspect MODEL.toml              what a model file describes: frequencies, meshes
+  demo                            pack examples/three_stage.toml, run the paper's four cases through
+                                  FMPy, write CSV files and pictures to target/demo
+  test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
+  bench                           wall time per simulated second and steps taken
+  golden                          regenerate modelDescription/modelDescription.xml; review its diff
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["fmu", rest @ ..] => pack::command(rest),
+        ["inspect", file] => inspect::command(&PathBuf::from(file)),
+        ["demo"] => demo::command(),
+        ["test"] => test::command(),
+        ["bench"] => shell::cargo(&["bench", "--quiet", "--package", "geartrain"]),
+        ["golden"] => golden::command(),
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        other => Err(format!("unknown command: {}\n\n{HELP}", other.join(" "))),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The folder of the workspace.
+fn workspace() -> PathBuf {
+    let xtask = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    xtask.parent().map_or_else(|| xtask.clone(), PathBuf::from)
+}

@@ -5,12 +5,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Natural modes of `M u'' + K u = 0`, ascending in frequency.
+/// Natural modes of `M u'' + K u = 0`, ascending in frequency, as far as floating point resolves them.
 #[derive(Debug, Clone)]
 pub struct Modes {
     /// Squared circular frequencies w^2 [rad^2/s^2]; rigid-body modes have exactly 0.
     pub squared_frequencies: Vec<f64>,
-    /// One mode per column, `shapes' M shapes = I`; the largest entry of each column is positive.
+    /// One mode per column, n x m, `shapes' M shapes = I`; the largest entry of each column is positive.
+    /// m < n when some degrees of freedom have almost no mass.
     pub shapes: DMatrix<f64>,
 }
 
@@ -23,7 +24,8 @@ pub struct Modes {
 ///
 /// The inverse form gives the lowest frequencies the full precision that the direct form gives the
 /// highest. The shift s is of the order of the lowest elastic w^2, so that rigid-body modes are
-/// regular too. `None` when K or M is not what is asked for.
+/// regular too. Modes with more than 1e13 times the w^2 of the lowest one are left out: they are noise.
+/// `None` when K or M is not what is asked for.
 pub fn natural_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Modes> {
     let n = mass.nrows();
     let stiffest = |i: usize| stiffness[(i, i)] / mass[(i, i)];
@@ -38,15 +40,15 @@ pub fn natural_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Mo
     compliance.fill_upper_triangle_with_lower_triangle();
     let eigen = compliance.symmetric_eigen();
 
-    let mut order: Vec<usize> = (0..n).collect();
+    let resolved = 1e-13 * eigen.eigenvalues.max();
+    let mut order: Vec<usize> = (0..n)
+        .filter(|&i| eigen.eigenvalues[i] > resolved)
+        .collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-    let mut shapes = DMatrix::zeros(n, n);
-    let mut squared_frequencies = Vec::with_capacity(n);
+    let mut shapes = DMatrix::zeros(n, order.len());
+    let mut squared_frequencies = Vec::with_capacity(order.len());
     for (column, &source) in order.iter().enumerate() {
         let value = eigen.eigenvalues[source];
-        if value <= 0.0 {
-            return None; // M is not positive definite
-        }
         let squared = 1.0 / value - shift;
         // Rounding leaves about 1e-13 s on a rigid-body mode; elastic ones are near s or above.
         squared_frequencies.push(if squared < 1e-9 * shift { 0.0 } else { squared });

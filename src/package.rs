@@ -10,7 +10,7 @@ use crate::description::{documentation_page, model_description};
 use crate::fmi2::payload::{ImplantError, implant};
 use crate::interface::Interface;
 use crate::model::{Inputs, ModalModel, equilibrium};
-use crate::rotor::NoModes;
+use crate::rotor::ReductionError;
 use crate::train::{GearTrain, Loaded, load};
 
 /// The parts of an FMU that depend on the model.
@@ -33,8 +33,8 @@ pub struct Package {
 pub enum PackageError {
     /// The file breaks rules; all of them.
     Invalid(Vec<Problem>),
-    /// The rotors have no modes.
-    NoModes(NoModes),
+    /// A rotor cannot be reduced to modes.
+    Irreducible(ReductionError),
 }
 
 impl Package {
@@ -45,7 +45,7 @@ impl Package {
             train,
             mut warnings,
         } = load(text).map_err(PackageError::Invalid)?;
-        let model = ModalModel::assemble(&train, None).map_err(PackageError::NoModes)?;
+        let model = ModalModel::assemble(&train, None).map_err(PackageError::Irreducible)?;
         let interface = Interface::of(&config, &train, &model);
         warnings.extend(contradicting_flanks(&train, &model));
         Ok(Package {
@@ -110,7 +110,7 @@ impl fmt::Display for PackageError {
                 let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
                 f.write_str(&lines.join("\n"))
             }
-            PackageError::NoModes(error) => error.fmt(f),
+            PackageError::Irreducible(error) => error.fmt(f),
         }
     }
 }

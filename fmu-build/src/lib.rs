@@ -194,7 +194,7 @@ mod tests {
         let bytes = sample().to_bytes().unwrap();
         let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
         let names: Vec<String> = (0..archive.len())
-            .map(|index| archive.by_index(index).unwrap().name().to_string())
+            .map(|index| archive.by_index(index).unwrap().name().unwrap().to_string())
             .collect();
         let expected = [
             "modelDescription.xml",

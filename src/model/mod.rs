@@ -13,16 +13,18 @@
 //! Nothing here changes in time: see [`Excitation`] for f(t) and k(t), [`equilibrium`] for the start and
 //! [`Motion`] for what the outside sees. Knows no FMI and no solver but its [`System`].
 
+mod coupled;
 mod equilibrium;
 mod excitation;
 mod motion;
 
 use crate::config::{Planar, TorqueCoupling};
 use crate::mesh::{GearMotion, LineOfAction, StiffnessLaw};
-use crate::rotor::{ModalRotor, ModeCounts, NoModes};
-use crate::solver::{Block, Coupling, Row, System};
+use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
+use crate::solver::{Block, Coupling, Monitor, Row, System};
 use crate::train::{self, GearAddress, GearTrain};
 
+pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium};
 pub use excitation::{BaseMotion, Excitation, Inputs};
 pub use motion::Motion;
@@ -124,7 +126,7 @@ impl ModalModel {
     pub fn assemble(
         train: &GearTrain,
         counts: Option<&[ModeCounts]>,
-    ) -> Result<ModalModel, NoModes> {
+    ) -> Result<ModalModel, ReductionError> {
         let mut system = System::default();
         let mut rotors = Vec::new();
         for (index, rotor) in train.rotors.iter().enumerate() {
@@ -312,18 +314,22 @@ fn couplings(rotors: &[Rotor], mesh: &Mesh) -> Vec<Coupling> {
 }
 
 /// The tolerance holds for the mesh forces; without meshes for the bearing forces.
-fn monitors(rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Row> {
+fn monitors(rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Monitor> {
     if meshes.is_empty() {
-        let stations = rotors
-            .iter()
-            .flat_map(|rotor| &rotor.bearings)
-            .map(|bearing| &bearing.station);
-        stations
-            .flat_map(|station| [station.x.clone(), station.y.clone()])
-            .collect()
-    } else {
-        meshes.iter().map(|mesh| mesh.row.clone()).collect()
+        let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
+        let rows = bearings.flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
+        return rows
+            .map(|row| Monitor {
+                row: row.clone(),
+                amplification: 20.0,
+            })
+            .collect();
     }
+    let monitor = |mesh: &Mesh| Monitor {
+        row: mesh.row.clone(),
+        amplification: mesh.amplification(),
+    };
+    meshes.iter().map(monitor).collect()
 }
 
 impl Mesh {
@@ -335,6 +341,14 @@ impl Mesh {
     /// Mesh frequency [Hz].
     pub fn frequency(&self) -> f64 {
         self.phase_rate.abs()
+    }
+
+    /// How much the mesh rings: 2.2 / zeta of the mesh against the modal masses of its rotors, within 10
+    /// and 150 (a forced resonance has 1 / 2 zeta; the rest is calibration, see `tests/integration_in_time.rs`). The modal coordinates have unit mass, so that w w' is 1/m_eq.
+    fn amplification(&self) -> f64 {
+        let inverse_mass = self.row.dot_row(&self.row);
+        let zeta = 0.5 * self.damping * (inverse_mass / self.mean_stiffness()).sqrt();
+        (2.2 / zeta).clamp(10.0, 150.0)
     }
 
     /// k at `time` [N/m]; at a jump the value that begins there.

@@ -62,11 +62,20 @@ pub struct ModalRotor {
     pub torsional_damping: DMatrix<f64>,
 }
 
-/// The matrices of a rotor have no modes: a parameter is beyond what floating-point numbers can carry.
+/// Why a rotor cannot be reduced to modes.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NoModes {
+pub struct ReductionError {
     rotor: String,
     kind: &'static str,
+    cause: Cause,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Cause {
+    /// A parameter is beyond what floating-point numbers can carry.
+    NoModes,
+    /// More modes were asked for than the finite elements have.
+    TooFewModes { wanted: usize, available: usize },
 }
 
 impl ModalRotor {
@@ -76,21 +85,13 @@ impl ModalRotor {
         rotor: &Rotor,
         basis: &Basis,
         counts: Option<ModeCounts>,
-    ) -> Result<Self, NoModes> {
+    ) -> Result<Self, ReductionError> {
         let elements = FiniteElements::assemble(rotor);
         let lateral = lateral_modes(rotor, &elements)?;
         let torsional = torsional_modes(rotor, &elements)?;
         let counts = counts.unwrap_or_else(|| choose(basis, &lateral, &torsional));
-        let kept = |modes: &Modes, count: usize| {
-            modes
-                .shapes
-                .columns(0, count.min(modes.shapes.ncols()))
-                .into_owned()
-        };
-        let (phi, phi_t) = (
-            kept(&lateral, counts.lateral),
-            kept(&torsional, counts.torsional),
-        );
+        let phi = lowest(rotor, "lateral", &lateral, counts.lateral)?;
+        let phi_t = lowest(rotor, "torsional", &torsional, counts.torsional)?;
         let hertz = |modes: &Modes, shapes: &DMatrix<f64>| {
             modes.squared_frequencies[..shapes.ncols()]
                 .iter()
@@ -143,7 +144,7 @@ impl ModalRotor {
 }
 
 /// Modes of one plane with K_xx and the supports.
-fn lateral_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, NoModes> {
+fn lateral_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, ReductionError> {
     let mut stiffness = elements.shaft_stiffness.clone();
     let springs = rotor
         .bearings
@@ -157,14 +158,12 @@ fn lateral_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, NoMo
         let displacement = 2 * elements.stations.at(position);
         stiffness[(displacement, displacement)] += spring;
     }
-    natural_modes(&stiffness, &elements.mass).ok_or_else(|| NoModes {
-        rotor: rotor.name.clone(),
-        kind: "lateral",
-    })
+    natural_modes(&stiffness, &elements.mass)
+        .ok_or_else(|| ReductionError::of(rotor, "lateral", Cause::NoModes))
 }
 
 /// Torsional modes with the supports.
-fn torsional_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, NoModes> {
+fn torsional_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, ReductionError> {
     let mut stiffness = elements.torsional_stiffness.clone();
     for support in &rotor.basis_supports {
         let station = elements.stations.at(support.position);
@@ -178,11 +177,9 @@ fn modes_with_exact_rotation(
     rotor: &Rotor,
     stiffness: &DMatrix<f64>,
     inertia: &DMatrix<f64>,
-) -> Result<Modes, NoModes> {
-    let mut modes = natural_modes(stiffness, inertia).ok_or_else(|| NoModes {
-        rotor: rotor.name.clone(),
-        kind: "torsional",
-    })?;
+) -> Result<Modes, ReductionError> {
+    let mut modes = natural_modes(stiffness, inertia)
+        .ok_or_else(|| ReductionError::of(rotor, "torsional", Cause::NoModes))?;
     if modes.squared_frequencies[0] == 0.0 {
         modes.shapes.column_mut(0).fill(1.0 / inertia.sum().sqrt());
     }
@@ -213,6 +210,24 @@ fn choose(basis: &Basis, lateral: &Modes, torsional: &Modes) -> ModeCounts {
             }
         }
     }
+}
+
+/// The shapes of the lowest `count` modes.
+fn lowest(
+    rotor: &Rotor,
+    kind: &'static str,
+    modes: &Modes,
+    count: usize,
+) -> Result<DMatrix<f64>, ReductionError> {
+    let available = modes.shapes.ncols();
+    if count > available {
+        let cause = Cause::TooFewModes {
+            wanted: count,
+            available,
+        };
+        return Err(ReductionError::of(rotor, kind, cause));
+    }
+    Ok(modes.shapes.columns(0, count).into_owned())
 }
 
 /// Stiffness of [A, B]: the diagonal L^2 less the supports, and what the bearings add beyond K_xx.
@@ -298,7 +313,7 @@ fn torsional_damping(
     rotor: &Rotor,
     elements: &FiniteElements,
     phi_t: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, NoModes> {
+) -> Result<DMatrix<f64>, ReductionError> {
     let n = phi_t.ncols();
     let mut damping = DMatrix::zeros(n, n);
     if rotor.torsional_damping_ratio > 0.0 {
@@ -331,12 +346,29 @@ fn add_outer(matrix: &mut DMatrix<f64>, corner: (usize, usize), factor: f64, row
     block.ger(factor, row, row, 1.0);
 }
 
-impl fmt::Display for NoModes {
+impl ReductionError {
+    fn of(rotor: &Rotor, kind: &'static str, cause: Cause) -> ReductionError {
+        ReductionError {
+            rotor: rotor.name.clone(),
+            kind,
+            cause,
+        }
+    }
+}
+
+impl fmt::Display for ReductionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "rotor \"{}\": its {} modes cannot be computed; look for parameters of extreme size",
-            self.rotor, self.kind
-        )
+        let (rotor, kind) = (&self.rotor, self.kind);
+        match self.cause {
+            Cause::NoModes => write!(
+                f,
+                "rotor \"{rotor}\": its {kind} modes cannot be computed; look for parameters of extreme size"
+            ),
+            Cause::TooFewModes { wanted, available } => write!(
+                f,
+                "rotor \"{rotor}\": {kind}_modes = {wanted}, but its finite elements have only {available} \
+                 {kind} modes; ask for fewer, or make max_element_length smaller"
+            ),
+        }
     }
 }

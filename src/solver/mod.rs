@@ -29,8 +29,17 @@ pub struct System {
     pub blocks: Vec<Block>,
     /// The springs between the blocks.
     pub couplings: Vec<Coupling>,
-    /// Displacements whose error is controlled, each relative to its own RMS over the run.
-    pub monitors: Vec<Row>,
+    /// Displacements whose error is controlled.
+    pub monitors: Vec<Monitor>,
+}
+
+/// A displacement whose error is controlled relative to its own RMS over the run.
+#[derive(Debug, Clone)]
+pub struct Monitor {
+    /// The displacement is `row * q`.
+    pub row: Row,
+    /// By how much the system amplifies a persistent error, such as 1 / damping ratio of a resonance.
+    pub amplification: f64,
 }
 
 /// One diagonal block: coordinates `offset .. offset + n`, damping and stiffness n x n.
@@ -118,6 +127,8 @@ pub struct Control {
     pub elapsed: f64,
     /// Time integral of the square of every monitored displacement.
     pub squares: Vec<f64>,
+    /// Recent peak of the second derivative of every monitored displacement.
+    pub peaks: Vec<f64>,
 }
 
 /// Work done so far.
@@ -166,6 +177,7 @@ impl System {
                 wanted_step: 0.0,
                 elapsed: 0.0,
                 squares: vec![0.0; self.monitors.len()],
+                peaks: vec![0.0; self.monitors.len()],
             },
         }
     }
@@ -238,7 +250,7 @@ impl Row {
     }
 
     /// Product with another row: only blocks that both touch contribute.
-    fn dot_row(&self, other: &Row) -> f64 {
+    pub fn dot_row(&self, other: &Row) -> f64 {
         let mut sum = 0.0;
         for mine in &self.parts {
             for theirs in other.parts.iter().filter(|part| part.block == mine.block) {

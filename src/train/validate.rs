@@ -182,7 +182,7 @@ fn resolve_rotor(
     });
     let sections = resolve_sections(place, rotor, config, problems);
     let length = sections.last().map_or(0.0, |section| section.end);
-    check_elements(place, rotor, length, config, problems);
+    check_elements(place, rotor, length, problems);
     let gear = |gear: &config::Gear| Gear {
         name: gear.name.clone(),
         body: gear.body,
@@ -261,7 +261,6 @@ fn check_elements(
     rotor_place: &Place,
     rotor: &config::Rotor,
     length: f64,
-    config: &Config,
     problems: &mut Vec<Problem>,
 ) {
     let place = |kind, index, name| rotor_place.element(kind, index, name);
@@ -340,15 +339,13 @@ fn check_elements(
         }
         .on_shaft(probe.position, length);
     }
-    check_mesh_of_elements(rotor_place, rotor, length, &config.basis, problems);
+    check_element_length(rotor_place, rotor, length, problems);
 }
 
-/// Element size, and modes asked for against degrees of freedom there will be at the least.
-fn check_mesh_of_elements(
+fn check_element_length(
     place: &Place,
     rotor: &config::Rotor,
     length: f64,
-    basis: &Basis,
     problems: &mut Vec<Problem>,
 ) {
     let mut rules = Rules { place, problems };
@@ -358,22 +355,6 @@ fn check_mesh_of_elements(
         rules.ensure("max_element_length", !(length / longest > MOST_ELEMENTS), || {
             let smallest = length / MOST_ELEMENTS;
             format!("must be at least {smallest} m (1/{MOST_ELEMENTS} of the shaft), found {longest} m")
-        });
-    }
-    let Basis::Counts {
-        lateral_modes,
-        torsional_modes,
-    } = *basis
-    else {
-        return;
-    };
-    let nodes = (length / longest).ceil() + 1.0;
-    for (key, modes, most) in [
-        ("lateral_modes", lateral_modes, 2.0 * nodes),
-        ("torsional_modes", torsional_modes, nodes),
-    ] {
-        rules.ensure("max_element_length", !(modes as f64 > most), || {
-            format!("gives at least {most} degrees of freedom, fewer than {key} = {modes}")
         });
     }
 }

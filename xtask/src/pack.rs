@@ -76,7 +76,7 @@ pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
 pub fn describe(path: &Path) -> Result<Package, String> {
     let package = Package::of(&shell::read(path)?).map_err(|error| match error {
         PackageError::Invalid(problems) => located(path, &problems),
-        PackageError::NoModes(error) => format!("{}: {error}", path.display()),
+        PackageError::Irreducible(error) => format!("{}: {error}", path.display()),
     })?;
     if !package.warnings.is_empty() {
         eprintln!(

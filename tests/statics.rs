@@ -1,0 +1,144 @@
+//! The static solution and what supports do to it.
+//!
+//! Authority: closed form.
+
+mod support;
+
+use geartrain::config::Start;
+use geartrain::model::{BaseMotion, Inputs, ModalModel, equilibrium};
+use geartrain::simulation::Simulation;
+use support::{assembled, file_inputs, gear_pair, three_stage, valid};
+
+#[test]
+fn static_mesh_force_is_torque_over_base_radius() {
+    // equations.md, section 6: two meshes share 2250 N m at a base radius of 0.1074069 m.
+    let (text, exact) = (three_stage(), 2250.0 / 2.0 / 0.107_406_9);
+    let found = equilibrium(&assembled(&text), &file_inputs(&text)).unwrap();
+    for force in found.mesh_forces {
+        assert!(
+            (force / exact - 1.0).abs() < 1e-9,
+            "{force} N, exact {exact} N; rounding"
+        );
+    }
+}
+
+#[test]
+fn equilibrium_stays_where_it_is_when_nothing_excites() {
+    let text = gear_pair(5, "law = \"constant\"\nmean = 4e8", "damping_ratio = 0.05")
+        .replace("moment = 2e-4", "moment = 0.0");
+    let mut simulation = support::started(&text, 1e-6);
+    let before = simulation.motion().mesh_force(0);
+    simulation.advance_to(0.05).unwrap();
+    let after = simulation.motion().mesh_force(0);
+    assert!(
+        (after / before - 1.0).abs() < 1e-9,
+        "{before} N -> {after} N; rounding over 1e4 steps"
+    );
+}
+
+/// The gear pair with every mode its finite elements have: two per station and plane, one in torsion.
+fn all_modes() -> String {
+    gear_pair(1, "law = \"constant\"\nmean = 4e8", "")
+        .replace("lateral_modes = 1", "lateral_modes = 18")
+        .replace("torsional_modes = 1", "torsional_modes = 9")
+}
+
+#[test]
+fn a_uniform_shift_of_all_supports_gives_no_force() {
+    let text = all_modes();
+    let model = assembled(&text);
+    let shift = BaseMotion {
+        displacement: [3e-4, -2e-4],
+        velocity: [0.0; 2],
+    };
+    let inputs = Inputs {
+        torques: vec![0.0; 2],
+        bases: vec![shift; model.bearings().count()],
+    };
+    let simulation = Simulation::start(model, inputs, Start::Equilibrium, 0.0, 1e-4).unwrap();
+    let motion = simulation.motion();
+    // 1e-9 of the force of one bearing held against the shift.
+    let scale = 9e7 * 3e-4;
+    assert!(
+        motion.mesh_force(0).abs() < 1e-9 * scale,
+        "{} N",
+        motion.mesh_force(0)
+    );
+    let bearings = motion.model.rotors.iter().flat_map(|rotor| &rotor.bearings);
+    for (input, bearing) in bearings.enumerate() {
+        let force = motion.bearing_force(bearing, input);
+        assert!(
+            force.iter().all(|component| component.abs() < 1e-9 * scale),
+            "{force:?} N"
+        );
+    }
+}
+
+#[test]
+fn all_forces_on_a_rotor_at_rest_balance() {
+    let text = three_stage();
+    let simulation = Simulation::start(
+        assembled(&text),
+        file_inputs(&text),
+        Start::Equilibrium,
+        0.0,
+        1e-4,
+    )
+    .unwrap();
+    let motion = simulation.motion();
+    // With the full set of modes the sum over the bearings is the mesh force; with three modes only the
+    // torque balance is exact: load torque + mesh torque = 0 on stages 2 and 3 at the mean stiffness.
+    for mesh in 0..2 {
+        let ratio = motion.model.meshes[mesh].mean_stiffness() / motion.mesh_stiffness(mesh);
+        let [_, on_b] = motion.mesh_loads(mesh);
+        assert!(
+            (on_b.torque * ratio + 1125.0).abs() < 1125.0 * 1e-9,
+            "{} N m",
+            on_b.torque * ratio
+        );
+    }
+}
+
+#[test]
+fn unbalanced_torque_is_carried_by_rigid_acceleration() {
+    let text = gear_pair(4, "law = \"constant\"\nmean = 4e8", "");
+    let model = assembled(&text);
+    // Only rotor one is driven: both gears and shafts accelerate, the mesh passes on the share of rotor
+    // two: T R_b J_b' / (R_a (J_a + J_b i^2)) = T / 2 R for equal rotors.
+    let inputs = Inputs {
+        torques: vec![400.0, 0.0],
+        bases: vec![BaseMotion::default(); 4],
+    };
+    let found = equilibrium(&model, &inputs).unwrap();
+    assert!(
+        (found.mesh_forces[0] / (400.0 / 2.0 / 0.07) - 1.0).abs() < 1e-9,
+        "{:?}",
+        found.mesh_forces
+    );
+    let inertia: f64 = found.position.iter().map(|q| q * q).sum();
+    assert!(inertia > 0.0);
+}
+
+#[test]
+fn a_full_set_of_modes_equals_the_finite_element_model() {
+    // Static deflection under a support shift of one bearing: with all modes the basis support must not
+    // matter at all, which is only so when nothing is lost in the projection.
+    let plain = all_modes();
+    let supported = plain.replacen(
+        "[[rotor.torque]]",
+        "[[rotor.basis_support]]\nposition = 0.25\nlateral = 5e7\ntorsional = 0.0\n[[rotor.torque]]",
+        1,
+    );
+    let one_more = plain.replace("lateral_modes = 18", "lateral_modes = 19");
+    assert!(
+        ModalModel::assemble(&valid(&one_more).train, None).is_err(),
+        "18 are all there are"
+    );
+    let force = |text: &str| {
+        let mut inputs = file_inputs(text);
+        inputs.bases[0].displacement = [1e-4, 0.0];
+        equilibrium(&assembled(text), &inputs).unwrap().mesh_forces[0]
+    };
+    let (one, two) = (force(&plain), force(&supported));
+    assert!((one / two - 1.0).abs() < 1e-9, "{one} N against {two} N");
+}

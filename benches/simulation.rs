@@ -21,7 +21,9 @@ fn run(text: &str, tolerance: f64) -> (Vec<f64>, geartrain::solver::Counts, f64)
     let mut forces = Vec::with_capacity(COUNT);
     let clock = Instant::now();
     for index in 1..=COUNT {
-        simulation.advance_to(STEP * index as f64).expect("the example is stable");
+        simulation
+            .advance_to(STEP * index as f64)
+            .expect("the example is stable");
         forces.push(simulation.motion().mesh_force(0));
     }
     (forces, simulation.counts(), clock.elapsed().as_secs_f64())
@@ -33,7 +35,9 @@ fn main() {
         .replace("lateral_modes = 3", "lateral_modes = 10")
         .replace("torsional_modes = 3", "torsional_modes = 8");
     println!("three_stage, case 4, {simulated} s, communication step {STEP} s\n");
-    println!("modes  tolerance  ms per simulated s  steps per simulated s  ns per step  factorizations      error");
+    println!(
+        "modes  tolerance  ms per simulated s  steps per simulated s  ns per step  factorizations      error"
+    );
     for (modes, text) in [("3/3", case_four()), ("10/8", more_modes)] {
         let (converged, ..) = run(&text, 1e-7);
         let mean = converged.iter().sum::<f64>() / converged.len() as f64;

@@ -5,9 +5,7 @@
 //! later step. Knows no FMI.
 
 use crate::config::Start;
-use crate::model::{
-    Equilibrium, Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium,
-};
+use crate::model::{Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium};
 use crate::solver::{Counts, Newmark, State, StepError};
 
 /// A running simulation.
@@ -39,11 +37,11 @@ impl Simulation {
         time: f64,
         tolerance: f64,
     ) -> Result<Simulation, NoEquilibrium> {
-        let mut state = model.system.rest(time);
-        if start == Start::Equilibrium {
-            let Equilibrium { position, .. } = equilibrium(&model, &inputs)?;
-            state.position = position;
-        }
+        let position = match start {
+            Start::Rest => vec![0.0; model.system.size],
+            Start::Equilibrium => equilibrium(&model, &inputs)?.position,
+        };
+        let state = model.system.state_at(time, position);
         let solver = Newmark::new(&model.system);
         let held = vec![0.0; model.system.size];
         Ok(Simulation {

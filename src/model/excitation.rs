@@ -218,9 +218,8 @@ impl Forcing for Excitation<'_> {
 
     fn spring(&self, coupling: usize, piece: Piece, time: f64) -> Spring {
         let mesh = &self.model.meshes[self.model.coupling_mesh[coupling]];
-        let cycle = mesh.phase(time) - piece.origin;
         Spring {
-            stiffness: mesh.factor * mesh.law.value(cycle, piece.index),
+            stiffness: mesh.stiffness_in(piece, time),
             damping: mesh.damping,
         }
     }
@@ -230,8 +229,17 @@ impl Forcing for Excitation<'_> {
 const PASSED: f64 = 1e-9;
 
 impl Mesh {
+    /// The smooth piece of the law that `time` lies in.
     fn piece(&self, time: f64) -> Piece {
-        let phase = self.phase(time);
+        self.piece_of(self.phase(time))
+    }
+
+    /// The smooth piece that holds from `time` on.
+    pub(super) fn piece_ahead(&self, time: f64) -> Piece {
+        self.piece_of(self.phase_ahead(time))
+    }
+
+    fn piece_of(&self, phase: f64) -> Piece {
         let origin = phase.floor();
         Piece {
             origin,
@@ -239,28 +247,21 @@ impl Mesh {
         }
     }
 
+    /// The phase a moment later, beyond a breakpoint that has just been reached.
+    fn phase_ahead(&self, time: f64) -> f64 {
+        self.phase(time) + self.phase_rate.signum() * PASSED
+    }
+
     fn next_breakpoint(&self, time: f64) -> f64 {
         if self.law.is_constant() || self.phase_rate == 0.0 {
             return f64::INFINITY;
         }
-        let direction = self.phase_rate.signum();
-        let phase = self.phase(time) + direction * PASSED;
-        let origin = phase.floor();
-        let cycle = phase - origin;
+        let Piece { origin, index } = self.piece_ahead(time);
         let starts = self.law.starts();
-        let next = if direction > 0.0 {
-            starts
-                .iter()
-                .copied()
-                .find(|&start| start > cycle)
-                .unwrap_or(1.0)
+        let next = if self.phase_rate > 0.0 {
+            starts.get(index + 1).copied().unwrap_or(1.0)
         } else {
-            let last = starts[starts.len() - 1] - 1.0;
-            starts
-                .iter()
-                .copied()
-                .rfind(|&start| start < cycle)
-                .unwrap_or(last)
+            starts[index]
         };
         (origin + next - self.start_phase) / self.phase_rate
     }

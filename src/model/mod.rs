@@ -21,7 +21,7 @@ mod motion;
 use crate::config::{Planar, TorqueCoupling};
 use crate::mesh::{GearMotion, LineOfAction, StiffnessLaw};
 use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
-use crate::solver::{Block, Coupling, Monitor, Row, System};
+use crate::solver::{Block, Coupling, Monitor, Piece, Row, System};
 use crate::train::{self, GearAddress, GearTrain};
 
 pub use coupled::NaturalVibration;
@@ -142,7 +142,7 @@ impl ModalModel {
             coupling_mesh.resize(system.couplings.len(), index);
             meshes.push(mesh);
         }
-        system.monitors = monitors(&rotors, &meshes);
+        system.monitors = monitors(&system, &rotors, &meshes);
         let vibration = excitation::SupportVibration::new(&train.gearbox_vibration);
         let mut harmonics = excitation::unbalance_harmonics(train, &rotors);
         harmonics.extend(vibration.harmonic(&rotors, system.size));
@@ -314,20 +314,20 @@ fn couplings(rotors: &[Rotor], mesh: &Mesh) -> Vec<Coupling> {
 }
 
 /// The tolerance holds for the mesh forces; without meshes for the bearing forces.
-fn monitors(rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Monitor> {
+fn monitors(system: &System, rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Monitor> {
     if meshes.is_empty() {
         let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
         let rows = bearings.flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
         return rows
             .map(|row| Monitor {
                 row: row.clone(),
-                amplification: 20.0,
+                damping_ratio: 0.0,
             })
             .collect();
     }
     let monitor = |mesh: &Mesh| Monitor {
         row: mesh.row.clone(),
-        amplification: mesh.amplification(),
+        damping_ratio: mesh.ringing(system),
     };
     meshes.iter().map(monitor).collect()
 }
@@ -343,19 +343,33 @@ impl Mesh {
         self.phase_rate.abs()
     }
 
-    /// How much the mesh rings: 2.2 / zeta of the mesh against the modal masses of its rotors, within 10
-    /// and 150 (a forced resonance has 1 / 2 zeta; the rest is calibration, see `tests/integration_in_time.rs`). The modal coordinates have unit mass, so that w w' is 1/m_eq.
-    fn amplification(&self) -> f64 {
-        let inverse_mass = self.row.dot_row(&self.row);
-        let zeta = 0.5 * self.damping * (inverse_mass / self.mean_stiffness()).sqrt();
-        (2.2 / zeta).clamp(10.0, 150.0)
+    /// Damping ratio of the most lightly damped motion that this mesh takes part in at half its own frequency
+    /// or above, each modal coordinate by itself with the mesh's mean stiffness k and damping c:
+    /// w_i^2 = K_ii + k w_i^2, 2 zeta_i w_i = D_ii + c w_i^2. The mesh's own frequency is sqrt(k w w').
+    fn ringing(&self, system: &System) -> f64 {
+        let (k, c) = (self.mean_stiffness(), self.damping);
+        let own = k * self.row.dot_row(&self.row);
+        let mut lightest = 0.5 * c * own.sqrt() / k;
+        for block in &system.blocks {
+            for i in 0..block.len() {
+                let share = self.row.entry(block.offset + i);
+                let squared = block.stiffness[(i, i)] + k * share * share;
+                if share != 0.0 && squared > 0.25 * own {
+                    let damping = block.damping[(i, i)] + c * share * share;
+                    lightest = lightest.min(0.5 * damping / squared.sqrt());
+                }
+            }
+        }
+        lightest
     }
 
-    /// k at `time` [N/m]; at a jump the value that begins there.
+    /// k at `time` [N/m]; at a jump the value that holds from then on.
     pub fn stiffness(&self, time: f64) -> f64 {
-        let phase = self.phase(time);
-        let cycle = phase - phase.floor();
-        self.factor * self.law.value(cycle, self.law.piece(cycle))
+        self.stiffness_in(self.piece_ahead(time), time)
+    }
+
+    fn stiffness_in(&self, piece: Piece, time: f64) -> f64 {
+        self.factor * self.law.value(self.phase(time) - piece.origin, piece.index)
     }
 
     fn phase(&self, time: f64) -> f64 {

@@ -38,8 +38,8 @@ pub struct System {
 pub struct Monitor {
     /// The displacement is `row * q`.
     pub row: Row,
-    /// By how much the system amplifies a persistent error, such as 1 / damping ratio of a resonance.
-    pub amplification: f64,
+    /// Damping ratio of the most lightly damped fast motion in it: how long an error of phase lasts.
+    pub damping_ratio: f64,
 }
 
 /// One diagonal block: coordinates `offset .. offset + n`, damping and stiffness n x n.
@@ -110,25 +110,33 @@ pub struct Spring {
 pub struct State {
     /// Time [s].
     pub time: f64,
-    /// q.
+    /// q: the best value the solver has.
     pub position: Vec<f64>,
     /// q'.
     pub velocity: Vec<f64>,
-    /// The step control's memory.
-    pub control: Control,
+    /// The solver's own solutions, from which that value comes.
+    tracks: [Track; 2],
+    control: Control,
 }
 
-/// Memory of the step control.
+/// One numerical solution.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Control {
+struct Track {
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+/// Memory of the step control; one entry per monitor in each list.
+#[derive(Debug, Clone, PartialEq)]
+struct Control {
     /// Step that the last error estimates ask for [s]; 0 before the first step.
-    pub wanted_step: f64,
+    wanted_step: f64,
     /// Time over which the mean squares run [s].
-    pub elapsed: f64,
-    /// Time integral of the square of every monitored displacement.
-    pub squares: Vec<f64>,
-    /// Recent peak of the second derivative of every monitored displacement.
-    pub peaks: Vec<f64>,
+    elapsed: f64,
+    /// Time integral of the square of the displacement.
+    squares: Vec<f64>,
+    /// Recent peaks of the displacement's second and fourth derivatives.
+    peaks: Vec<[f64; 2]>,
 }
 
 /// Work done so far.
@@ -167,18 +175,25 @@ pub enum StepError {
 }
 
 impl System {
-    /// The state at rest at `time`.
-    pub fn rest(&self, time: f64) -> State {
+    /// The state with these displacements and no velocity at `time`; one entry per coordinate.
+    pub fn state_at(&self, time: f64, position: Vec<f64>) -> State {
+        let velocity = vec![0.0; self.size];
+        let track = Track {
+            position: position.clone(),
+            velocity: velocity.clone(),
+        };
+        let control = Control {
+            wanted_step: 0.0,
+            elapsed: 0.0,
+            squares: vec![0.0; self.monitors.len()],
+            peaks: vec![[0.0; 2]; self.monitors.len()],
+        };
         State {
             time,
-            position: vec![0.0; self.size],
-            velocity: vec![0.0; self.size],
-            control: Control {
-                wanted_step: 0.0,
-                elapsed: 0.0,
-                squares: vec![0.0; self.monitors.len()],
-                peaks: vec![0.0; self.monitors.len()],
-            },
+            position,
+            velocity,
+            tracks: [track.clone(), track],
+            control,
         }
     }
 }

@@ -13,6 +13,12 @@ pub fn three_stage() -> String {
     std::fs::read_to_string(path).expect("the example is part of the repository")
 }
 
+/// A two-step train that rings long after a start from rest: two of its shafts have no damping.
+pub fn compound() -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/compound.toml");
+    std::fs::read_to_string(path).expect("the model is part of the repository")
+}
+
 /// The example with gearbox vibration and large imbalance: case 4 of the paper.
 pub fn case_four() -> String {
     three_stage()

@@ -1,0 +1,36 @@
+"""Where the packed FMUs are, and how the tests run them through FMPy."""
+
+import os
+from pathlib import Path
+
+import fmpy
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def fmus() -> Path:
+    """The folder with the packed FMUs."""
+    folder = os.environ.get("GEARTRAIN_FMUS")
+    if not folder:
+        pytest.exit("GEARTRAIN_FMUS is not set: run these tests with `cargo xtask test`")
+    return Path(folder)
+
+
+@pytest.fixture(scope="session")
+def three_stage(fmus) -> str:
+    return str(fmus / "three_stage.fmu")
+
+
+def simulate(fmu, **options):
+    """FMPy's simulation with the file's communication step and every logger message as a failure."""
+    messages = []
+
+    def logger(environment, instance, status, category, message):
+        if status != 0:
+            messages.append(message.decode())
+
+    result = fmpy.simulate_fmu(str(fmu), logger=logger, **options)
+    assert not messages, messages
+    return result

@@ -127,13 +127,13 @@ impl<'d, 't> Table<'d, 't> {
         Some(number.unwrap_or_else(|| self.wrong_type(key, rule, value, f64::NAN)))
     }
 
-    /// A whole number >= 0 that must be present.
+    /// A whole number >= 0 that must be present; 0 stands in when it is not.
     pub(super) fn count(&self, key: &'static str) -> usize {
         let Some(value) = self.value(key) else {
-            return self.missing(key, 1);
+            return self.missing(key, 0);
         };
         let count = integer(value).and_then(|whole| usize::try_from(whole).ok());
-        count.unwrap_or_else(|| self.wrong_type(key, "must be a whole number, 0 or more", value, 1))
+        count.unwrap_or_else(|| self.wrong_type(key, "must be a whole number, 0 or more", value, 0))
     }
 
     /// A string that must be present.
@@ -158,31 +158,34 @@ impl<'d, 't> Table<'d, 't> {
         }
     }
 
-    /// One of a few words, each with its meaning; the first one stands in for a wrong word.
+    /// The meaning of one of a few words; without a default the key must be present. `None` after a problem.
     pub(super) fn choice<T: Copy>(
         &self,
         key: &'static str,
-        default: Option<&str>,
+        default: Option<T>,
         choices: &[(&str, T)],
-    ) -> T {
-        let first = choices[0].1;
-        let word = match (self.optional_string(key), default) {
-            (Some(word), _) => word,
-            (None, Some(default)) => default.to_string(),
-            (None, None) => return self.missing(key, first),
+    ) -> Option<T> {
+        let word = match self.value(key) {
+            Some(DeValue::String(word)) => word,
+            Some(other) => return self.wrong_type(key, "must be a string", other, None),
+            None if default.is_some() => return default,
+            None => return self.missing(key, None),
         };
-        if let Some((_, meaning)) = choices.iter().find(|(name, _)| *name == word) {
-            return *meaning;
-        }
-        let names: Vec<String> = choices
+        let found = choices
             .iter()
-            .map(|(name, _)| format!("\"{name}\""))
-            .collect();
-        self.problem(
-            key,
-            format!("must be {}, found \"{word}\"", names.join(" or ")),
-        );
-        first
+            .find(|(name, _)| name == word)
+            .map(|(_, meaning)| *meaning);
+        if found.is_none() {
+            let names: Vec<String> = choices
+                .iter()
+                .map(|(name, _)| format!("\"{name}\""))
+                .collect();
+            self.problem(
+                key,
+                format!("must be {}, found \"{word}\"", names.join(" or ")),
+            );
+        }
+        found
     }
 
     /// A list of exactly two strings that must be present.

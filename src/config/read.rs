@@ -36,7 +36,7 @@ pub fn read(text: &str) -> Reading {
 
 fn top(table: Table<'_, '_>) -> Config {
     let kinds = [("gear_train", true), ("housing", false)];
-    if !table.choice("kind", None, &kinds) {
+    if table.choice("kind", None, &kinds) == Some(false) {
         table.not_yet("kind", "kind = \"housing\"");
     }
     table.not_yet("housing", "an embedded housing");
@@ -66,23 +66,27 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
         step_size: 1e-5,
     };
     let Some(table) = table else { return defaults };
-    if !table.choice(
+    if table.choice(
         "speed",
-        Some("prescribed"),
+        Some(true),
         &[("prescribed", true), ("free", false)],
-    ) {
+    ) == Some(false)
+    {
         table.not_yet("speed", "free spin");
     }
-    if !table.choice(
+    if table.choice(
         "solver",
-        Some("newmark"),
+        Some(true),
         &[("newmark", true), ("exponential", false)],
-    ) {
+    ) == Some(false)
+    {
         table.not_yet("solver", "the exponential solver");
     }
     let starts = [("equilibrium", Start::Equilibrium), ("rest", Start::Rest)];
     let simulation = Simulation {
-        start: table.choice("start", Some("equilibrium"), &starts),
+        start: table
+            .choice("start", Some(defaults.start), &starts)
+            .unwrap_or(defaults.start),
         tolerance: table.number_or("tolerance", defaults.tolerance),
         stop_time: table.number_or("stop_time", defaults.stop_time),
         step_size: table.number_or("step_size", defaults.step_size),
@@ -289,11 +293,12 @@ fn mesh(table: Table<'_, '_>) -> Mesh {
     if table.boolean_or("internal", false) {
         table.not_yet("internal", "an internal gear (internal = true)");
     }
-    if !table.choice(
+    if table.choice(
         "contact",
-        Some("bilateral"),
+        Some(true),
         &[("bilateral", true), ("unilateral", false)],
-    ) {
+    ) == Some(false)
+    {
         table.not_yet("contact", "contact = \"unilateral\"");
     }
     if table.number_or("backlash", 0.0) != 0.0 {
@@ -301,8 +306,9 @@ fn mesh(table: Table<'_, '_>) -> Mesh {
         table.problem("backlash", message.to_string());
     }
     table.not_yet("transmission_error", "transmission error");
+    let consistent = TorqueCoupling::Consistent;
     let couplings = [
-        ("consistent", TorqueCoupling::Consistent),
+        ("consistent", consistent),
         ("as_printed", TorqueCoupling::AsPrinted),
     ];
     let mesh = Mesh {
@@ -313,7 +319,9 @@ fn mesh(table: Table<'_, '_>) -> Mesh {
         flank: flank(&table),
         phase: table.optional_number("phase"),
         damping: mesh_damping(&table),
-        torque_coupling: table.choice("torque_coupling", Some("consistent"), &couplings),
+        torque_coupling: table
+            .choice("torque_coupling", Some(consistent), &couplings)
+            .unwrap_or(consistent),
         stiffness: mesh_stiffness(&table),
         stiffness_factor: 1.0,
     };
@@ -351,7 +359,7 @@ fn mesh_damping(table: &Table<'_, '_>) -> MeshDamping {
 }
 
 fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
-    let placeholder = MeshStiffness::Constant { mean: f64::NAN };
+    let placeholder = MeshStiffness::Constant { mean: 1.0 };
     let Some(table) = mesh.table("stiffness") else {
         if !mesh.has("stiffness") {
             mesh.problem(
@@ -370,19 +378,13 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
         ("fourier", not_yet_a_law),
         ("table", not_yet_a_law),
     ];
-    let law = table.optional_string("law");
-    match laws.iter().find(|(name, _)| law.as_deref() == Some(name)) {
-        Some((_, read_law)) => {
-            let stiffness = read_law(&table);
-            table.finish();
-            stiffness
-        }
-        // Without a law nobody can say which keys are known: the table is not finished.
-        None => {
-            table.choice("law", None, &laws);
-            placeholder
-        }
-    }
+    // Without a law nobody can say which keys are known: the table is not finished.
+    let Some(read_law) = table.choice("law", None, &laws) else {
+        return placeholder;
+    };
+    let stiffness = read_law(&table);
+    table.finish();
+    stiffness
 }
 
 fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
@@ -410,7 +412,7 @@ fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
         _ => {
             let message = "missing or ambiguous; give either pair alone, or single and double";
             table.problem("pair", message.to_string());
-            MeshStiffness::Constant { mean: f64::NAN }
+            MeshStiffness::Constant { mean: 1.0 }
         }
     }
 }
@@ -430,7 +432,7 @@ fn not_yet_a_law(table: &Table<'_, '_>) -> MeshStiffness {
         table.has(key);
     }
     table.not_yet("law", "this law");
-    MeshStiffness::Constant { mean: f64::NAN }
+    MeshStiffness::Constant { mean: 1.0 }
 }
 
 fn gearbox_vibration(table: Option<Table<'_, '_>>) -> GearboxVibration {

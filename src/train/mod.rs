@@ -4,7 +4,10 @@
 //! floors above assume about a model stands here as a rule with a message; they check nothing again.
 //! Knows no modes and no time.
 
+mod meshes;
 mod names;
+mod rotors;
+mod rules;
 mod speeds;
 mod validate;
 

@@ -4,6 +4,8 @@
 //! Engineering, 4th ed., 5.10-5.12; Jeffcott rotor and gyroscopic disk: Genta, Dynamics of Rotating
 //! Systems, chapters 2 and 5.
 
+#![allow(clippy::disallowed_methods)] // tests compare with tolerances: the platform's sin will do
+
 mod support;
 
 use std::f64::consts::{PI, TAU};

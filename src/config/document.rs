@@ -279,8 +279,11 @@ impl<'d, 't> Table<'d, 't> {
     }
 
     /// Reports a problem with one of the table's keys; the message follows the key's name.
-    pub(super) fn problem(&self, key: &str, message: String) {
-        self.push(self.place.problem(key, format!("{key}: {message}")));
+    pub(super) fn problem(&self, key: &str, message: impl AsRef<str>) {
+        self.push(
+            self.place
+                .problem(key, format!("{key}: {}", message.as_ref())),
+        );
     }
 
     /// Reports every key that nobody asked for.
@@ -314,7 +317,7 @@ impl<'d, 't> Table<'d, 't> {
     }
 
     fn missing<T>(&self, key: &str, placeholder: T) -> T {
-        self.problem(key, "missing".to_string());
+        self.problem(key, "missing");
         placeholder
     }
 

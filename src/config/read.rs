@@ -100,8 +100,7 @@ fn basis(top: &Table<'_, '_>) -> Basis {
         top.problem(
             "basis",
             "missing; the default basis with static shapes is not available yet: give lateral_modes \
-             and torsional_modes, or max_frequency"
-                .to_string(),
+             and torsional_modes, or max_frequency",
         );
         return Basis::MaxFrequency(f64::NAN);
     };
@@ -111,10 +110,7 @@ fn basis(top: &Table<'_, '_>) -> Basis {
     let basis = if let Some(frequency) = table.optional_number("max_frequency") {
         for key in ["lateral_modes", "torsional_modes"] {
             if table.has(key) {
-                table.problem(
-                    key,
-                    "contradicts max_frequency; give one or the other".to_string(),
-                );
+                table.problem(key, "contradicts max_frequency; give one or the other");
             }
         }
         Basis::MaxFrequency(frequency)
@@ -212,12 +208,12 @@ fn base_circle(table: &Table<'_, '_>) -> BaseCircle {
         },
         (None, None, None) => {
             let message = "missing; give base_radius, or module and pressure_angle";
-            table.problem("base_radius", message.to_string());
+            table.problem("base_radius", message);
             BaseCircle::Radius(f64::NAN)
         }
         _ => {
             let message = "give either base_radius alone, or module and pressure_angle together";
-            table.problem("base_radius", message.to_string());
+            table.problem("base_radius", message);
             BaseCircle::Radius(f64::NAN)
         }
     }
@@ -236,7 +232,7 @@ fn bearing(table: &Table<'_, '_>) -> Bearing {
 fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
     let Some(table) = bearing.table(key) else {
         if key == "stiffness" && !bearing.has(key) {
-            bearing.problem(key, "missing".to_string());
+            bearing.problem(key, "missing");
         }
         return Planar {
             xx: 0.0,
@@ -303,7 +299,7 @@ fn mesh(table: Table<'_, '_>) -> Mesh {
     }
     if table.number_or("backlash", 0.0) != 0.0 {
         let message = "must be 0 with bilateral contact (unilateral contact is not available yet)";
-        table.problem("backlash", message.to_string());
+        table.problem("backlash", message);
     }
     table.not_yet("transmission_error", "transmission error");
     let consistent = TorqueCoupling::Consistent;
@@ -349,7 +345,7 @@ fn mesh_damping(table: &Table<'_, '_>) -> MeshDamping {
     ) {
         (Some(_), Some(_)) => {
             let message = "contradicts damping_ratio; give one or the other";
-            table.problem("damping", message.to_string());
+            table.problem("damping", message);
             MeshDamping::Ratio(0.0)
         }
         (Some(ratio), None) => MeshDamping::Ratio(ratio),
@@ -362,14 +358,12 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
     let placeholder = MeshStiffness::Constant { mean: 1.0 };
     let Some(table) = mesh.table("stiffness") else {
         if !mesh.has("stiffness") {
-            mesh.problem(
-                "stiffness",
-                "missing; write a table [mesh.stiffness]".to_string(),
-            );
+            mesh.problem("stiffness", "missing; write a table [mesh.stiffness]");
         }
         return placeholder;
     };
-    let laws: [(&str, fn(&Table<'_, '_>) -> MeshStiffness); 5] = [
+    type ReadLaw = fn(&Table<'_, '_>) -> MeshStiffness;
+    let laws: [(&str, ReadLaw); 5] = [
         ("constant", |table| MeshStiffness::Constant {
             mean: table.number("mean"),
         }),
@@ -411,7 +405,7 @@ fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
         }
         _ => {
             let message = "missing or ambiguous; give either pair alone, or single and double";
-            table.problem("pair", message.to_string());
+            table.problem("pair", message);
             MeshStiffness::Constant { mean: 1.0 }
         }
     }

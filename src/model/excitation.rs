@@ -116,8 +116,8 @@ impl SupportVibration {
 
     fn at_angles(&self, angles: [f64; 2]) -> BaseMotion {
         let mut motion = BaseMotion::default();
-        for axis in 0..2 {
-            let (sine, cosine) = libm::sincos(angles[axis]);
+        for (axis, angle) in angles.into_iter().enumerate() {
+            let (sine, cosine) = libm::sincos(angle);
             motion.displacement[axis] = self.amplitude[axis] * sine;
             motion.velocity[axis] = self.amplitude[axis] * self.frequency * cosine;
         }

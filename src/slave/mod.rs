@@ -221,17 +221,14 @@ impl Slave {
                 "the step starts at {time} s, but the slave is at {now} s"
             )));
         }
-        if let Some(Experiment {
-            start,
-            stop: Some(stop),
-            ..
-        }) = self.experiment
+        let stop = self
+            .experiment
+            .and_then(|experiment| Some((experiment.start, experiment.stop?)));
+        if let Some((start, stop)) = stop.filter(|(start, stop)| end > stop + 1e-9 * (stop - start))
         {
-            if end > stop + 1e-9 * (stop - start).max(f64::MIN_POSITIVE) {
-                return Err(Error::new(format!(
-                    "the step from {time} s by {step} s ends after the stop time {stop} s"
-                )));
-            }
+            return Err(Error::new(format!(
+                "the step from {time} s by {step} s ends after the stop time {stop} s (start {start} s)"
+            )));
         }
         simulation.advance_to(end).map_err(|error| {
             self.life_cycle = LifeCycle::Failed;

@@ -78,7 +78,7 @@ fn resolve_sections(
         rules.positive("outer_diameter", segment.outer_diameter, "m");
         rules.not_negative("inner_diameter", segment.inner_diameter, "m");
         let (outer, inner) = (segment.outer_diameter, segment.inner_diameter);
-        rules.ensure("inner_diameter", !(inner >= outer), || {
+        rules.ensure("inner_diameter", inner < outer || outer.is_nan(), || {
             format!("must be less than the outer diameter of {outer} m, found {inner} m")
         });
         let material = config.materials.get(&segment.material);

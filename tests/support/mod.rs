@@ -1,6 +1,7 @@
 //! What several test files share: small models as text, and running them.
 
 #![allow(dead_code, missing_docs)] // each test file uses its own part
+#![allow(clippy::disallowed_methods)] // tests compare with tolerances: the platform's sin will do
 
 use geartrain::model::{Inputs, ModalModel};
 use geartrain::simulation::Simulation;

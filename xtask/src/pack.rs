@@ -17,7 +17,7 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
                 out = words
                     .next()
                     .map(PathBuf::from)
-                    .ok_or("--out needs a folder")?
+                    .ok_or("--out needs a folder")?;
             }
             option if option.starts_with("--") => return Err(format!("unknown option {option}")),
             model => models.push(PathBuf::from(model)),

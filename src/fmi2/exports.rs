@@ -1,5 +1,5 @@
 //! The 34 functions of an FMI 2.0 co-simulation slave. Each is a guard call and one method call; arguments
-//! are turned into slices and strings by [`super::arguments`].
+//! are turned into slices and strings by `arguments`.
 
 use super::abi::{
     Boolean, Byte, CString, CallbackFunctions, Component, FALSE, FmuState, Integer,

@@ -151,7 +151,6 @@ fn variables(html: &mut Xml, interface: &Interface) -> io::Result<()> {
         ("Parameters", Causality::Parameter),
         ("Calculated parameters", Causality::CalculatedParameter),
         ("Local variables", Causality::Local),
-        ("Independent variable", Causality::Independent),
     ];
     for (title, causality) in groups {
         let members: Vec<(usize, &Variable)> = interface

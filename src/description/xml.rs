@@ -164,7 +164,6 @@ fn scalar_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::
 /// causality, variability, initial.
 fn words(causality: Causality) -> (&'static str, &'static str, Option<&'static str>) {
     match causality {
-        Causality::Independent => ("independent", "continuous", None),
         Causality::Input => ("input", "continuous", None),
         Causality::Output => ("output", "continuous", Some("calculated")),
         Causality::Local => ("local", "continuous", Some("calculated")),

@@ -41,8 +41,6 @@ pub struct Variable {
 /// Causality, and with it FMI's variability and initial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Causality {
-    /// Time.
-    Independent,
     /// Set by the master at any time; continuous.
     Input,
     /// For the master; continuous, calculated.
@@ -62,8 +60,6 @@ pub enum Causality {
 )]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Time.
-    Time,
     /// External torque number `torque` of the inputs.
     Torque { torque: usize },
     /// Gearbox displacement at bearing number `bearing` of the inputs; axis 0 is x.
@@ -164,7 +160,6 @@ impl Variable {
     /// The variable's causality.
     pub fn causality(&self) -> Causality {
         match self.quantity {
-            Quantity::Time => Causality::Independent,
             Quantity::Torque { .. }
             | Quantity::BaseDisplacement { .. }
             | Quantity::BaseVelocity { .. } => Causality::Input,
@@ -184,7 +179,6 @@ impl Quantity {
     pub fn evaluate(self, motion: &Motion<'_>) -> f64 {
         let rotors = &motion.model.rotors;
         match self {
-            Quantity::Time => motion.state.time,
             Quantity::Torque { torque } => motion.inputs.torques[torque],
             Quantity::BaseDisplacement { bearing, axis } => {
                 motion.inputs.bases[bearing].displacement[axis]

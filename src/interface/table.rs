@@ -21,7 +21,6 @@ pub(super) fn build(config: &Config, train: &GearTrain, model: &ModalModel) -> I
         variables: Vec::new(),
         config: &mut config,
     };
-    table.row("time", Unit::Second, Quantity::Time, "Time");
     table.inputs(train);
     table.meshes(train);
     let mut input = 0;

@@ -5,8 +5,6 @@
 pub enum Unit {
     /// No dimension: factors, modal coordinates.
     One,
-    /// s
-    Second,
     /// m
     Meter,
     /// m/s
@@ -49,8 +47,7 @@ pub struct DisplayUnit {
 
 impl Unit {
     /// All units with a name.
-    pub const NAMED: [Unit; 11] = [
-        Unit::Second,
+    pub const NAMED: [Unit; 10] = [
         Unit::Meter,
         Unit::MeterPerSecond,
         Unit::Newton,
@@ -67,7 +64,6 @@ impl Unit {
     pub fn name(self) -> &'static str {
         match self {
             Unit::One => "",
-            Unit::Second => "s",
             Unit::Meter => "m",
             Unit::MeterPerSecond => "m/s",
             Unit::Newton => "N",
@@ -85,7 +81,6 @@ impl Unit {
     pub fn base(self) -> BaseUnit {
         let (exponents, factor) = match self {
             Unit::One => ([0, 0, 0, 0], 1.0),
-            Unit::Second => ([0, 0, 1, 0], 1.0),
             Unit::Meter => ([0, 1, 0, 0], 1.0),
             Unit::MeterPerSecond => ([0, 1, -1, 0], 1.0),
             Unit::Newton => ([1, 1, -2, 0], 1.0),

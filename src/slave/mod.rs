@@ -14,7 +14,7 @@ mod error;
 
 use crate::config::{Config, Start};
 use crate::interface::{Causality, Interface, Parameter, Quantity};
-use crate::model::{Inputs, ModalModel, Motion};
+use crate::model::{Inputs, ModalModel};
 use crate::rotor::ModeCounts;
 use crate::simulation::Simulation;
 use crate::train::{SpeedRatio, speed_ratios, validate};
@@ -86,19 +86,9 @@ impl Slave {
         })
     }
 
-    /// The table of variables.
-    pub fn interface(&self) -> &Interface {
-        &self.design.interface
-    }
-
     /// The fingerprint of interface and model that modelDescription.xml carries.
     pub fn guid(&self) -> &str {
         &self.design.guid
-    }
-
-    /// Where the slave is in its life.
-    pub fn life_cycle(&self) -> LifeCycle {
-        self.life_cycle
     }
 
     /// Refuses a call that is not legal now.
@@ -414,12 +404,4 @@ impl Design {
 fn joined(problems: &[crate::config::Problem]) -> Error {
     let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
     Error::new(format!("the model is not valid: {}", sentences.join("; ")))
-}
-
-/// The outside's view of a running slave, for tests and tools in this crate.
-impl Slave {
-    /// What can be seen now; `None` before the simulation has started.
-    pub fn motion(&self) -> Option<Motion<'_>> {
-        self.simulation.as_ref().map(Simulation::motion)
-    }
 }

@@ -102,7 +102,7 @@ impl Simulation {
 
     /// Continues from a snapshot of the same model, to the bit.
     pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.state.clone_from(&snapshot.state);
+        self.state.copy_from(&snapshot.state);
         self.inputs.clone_from(&snapshot.inputs);
     }
 }

@@ -308,3 +308,28 @@ fn without_damping_and_load_energy_is_kept() {
         "{before} J -> {after} J"
     );
 }
+
+#[test]
+fn the_mesh_passes_on_momentum_and_takes_none() {
+    // Equal gears, th_two = -th_one: L = J om_one - J om_two grows with the external torques alone, whatever
+    // the mesh does. The rigid rotation of a shaft has the shape 1 / sqrt(J).
+    let text = gear_pair(4, RECTANGULAR, "damping_ratio = 0.05").replace("slope = 2", "slope = 0");
+    let model = assembled(&text);
+    let mut inputs = file_inputs(&text);
+    inputs.torques = vec![500.0, 380.0];
+    let mut simulation = Simulation::start(model, inputs, Start::Rest, 0.0, 1e-4).unwrap();
+    let end = 0.03;
+    simulation.advance_to(end).unwrap();
+    let motion = simulation.motion();
+    let momentum = |rotor: usize| {
+        let rotor = &motion.model.rotors[rotor];
+        let rigid = rotor.offset + 2 * rotor.counts.lateral;
+        motion.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
+    };
+    let found = momentum(0) - momentum(1);
+    let exact = (500.0 - 380.0) * end;
+    assert!(
+        (found / exact - 1.0).abs() < 1e-9,
+        "{found} against {exact} N m s; rounding"
+    );
+}

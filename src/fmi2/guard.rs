@@ -93,3 +93,62 @@ pub(super) fn catching<T>(body: impl FnOnce() -> T) -> Option<T> {
     QUIET.set(outer);
     outcome.ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use core::ptr;
+
+    use super::super::abi::CallbackFunctions;
+    use super::*;
+    use crate::train::load;
+
+    fn instance() -> Box<Instance> {
+        let model = load(include_str!("../../examples/three_stage.toml"))
+            .unwrap()
+            .config
+            .to_bytes();
+        let callbacks = CallbackFunctions {
+            logger: None,
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            component_environment: ptr::null_mut(),
+        };
+        Box::new(Instance::new(
+            Slave::new(&model).unwrap(),
+            Messages::new(&callbacks, c"test", false),
+        ))
+    }
+
+    #[test]
+    fn a_panic_becomes_an_error_and_nothing_but_free_is_trusted_afterwards() {
+        let mut instance = instance();
+        let component: Component = ptr::from_mut(&mut *instance).cast();
+        let status = call(component, "test", Call::Get, |_| panic!("caught"));
+        assert_eq!(status, Status::Error);
+        let mut reached = false;
+        let status = call(component, "test", Call::Reset, |_| {
+            reached = true;
+            Ok(())
+        });
+        assert_eq!((status, reached), (Status::Error, false));
+    }
+
+    #[test]
+    fn illegal_calls_do_not_reach_the_slave() {
+        let mut instance = instance();
+        let component: Component = ptr::from_mut(&mut *instance).cast();
+        let status = call(component, "fmi2DoStep", Call::DoStep, |_| {
+            panic!("not reached")
+        });
+        assert_eq!(status, Status::Error);
+        assert_eq!(
+            call(component, "fmi2Reset", Call::Reset, |_| Ok(())),
+            Status::Ok
+        );
+        assert_eq!(
+            call(ptr::null_mut(), "fmi2Reset", Call::Reset, |_| Ok(())),
+            Status::Error
+        );
+    }
+}

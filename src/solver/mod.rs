@@ -198,6 +198,28 @@ impl System {
     }
 }
 
+impl State {
+    /// Becomes the same as another state of the same system, without allocation.
+    pub fn copy_from(&mut self, other: &State) {
+        self.time = other.time;
+        self.position.clone_from(&other.position);
+        self.velocity.clone_from(&other.velocity);
+        self.control.wanted_step = other.control.wanted_step;
+        self.control.elapsed = other.control.elapsed;
+        self.control.squares.clone_from(&other.control.squares);
+        self.control.peaks.clone_from(&other.control.peaks);
+        copy_tracks(&mut self.tracks, &other.tracks);
+    }
+}
+
+/// Copies both solutions without allocation, which the derived `clone_from` would need.
+fn copy_tracks(target: &mut [Track; 2], source: &[Track; 2]) {
+    for (target, source) in target.iter_mut().zip(source) {
+        target.position.clone_from(&source.position);
+        target.velocity.clone_from(&source.velocity);
+    }
+}
+
 impl Block {
     /// Number of coordinates.
     pub fn len(&self) -> usize {

@@ -41,6 +41,7 @@ use nalgebra::DMatrix;
 
 use super::{
     Control, Counts, Coupling, Forcing, Monitor, Part, Piece, Row, State, StepError, System, Track,
+    copy_tracks,
 };
 use crate::linalg::{add_scaled, invert_in_place, multiply_add, solve_in_place};
 
@@ -167,10 +168,10 @@ impl Newmark {
         until: f64,
         tolerance: f64,
     ) -> Result<(), StepError> {
-        self.before.clone_from(state);
+        self.before.copy_from(state);
         let result = self.advance(system, forcing, state, until, tolerance);
         if result.is_err() {
-            state.clone_from(&self.before);
+            state.copy_from(&self.before);
         }
         result
     }
@@ -261,7 +262,7 @@ impl Newmark {
         span: Span,
         tolerance: f64,
     ) -> Result<f64, StepError> {
-        self.retry.clone_from(&state.tracks);
+        copy_tracks(&mut self.retry, &state.tracks);
         let [coarse, fine] = &mut self.work;
         self.kernel
             .step(system, forcing, &state.tracks[0], span, coarse)?;
@@ -300,7 +301,7 @@ impl Newmark {
         }
         if error > 1.5 {
             self.counts.rejected += 1;
-            state.tracks.clone_from(&self.retry);
+            copy_tracks(&mut state.tracks, &self.retry);
             self.evaluate_accelerations(system, forcing, state);
         } else {
             self.counts.steps += 1;

@@ -74,7 +74,7 @@ fn numbers_out_of_range_name_rule_and_value() {
     one_problem(
         "tolerance = 1e-4",
         "tolerance = 0.0",
-        &["simulation", "tolerance", "greater than 0"],
+        &["simulation", "tolerance", "at least 1e-12"],
     );
     one_problem(
         "step_size = 2e-5",

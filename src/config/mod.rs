@@ -47,7 +47,8 @@ pub struct Config {
 pub struct Simulation {
     /// State at the start time.
     pub start: Start,
-    /// Bound on the RMS error of every mesh force over a run, relative to that force's RMS. (0, 0.1]
+    /// Bound on the RMS error of every mesh force over a run, relative to that force's RMS.
+    /// [1e-12, 0.1]
     pub tolerance: f64,
     /// Default end of a simulation [s]. > 0
     pub stop_time: f64,
@@ -94,9 +95,9 @@ pub struct Material {
 pub struct Rotor {
     /// Unique identifier.
     pub name: String,
-    /// Mean speed, positive about +z [rad/s].
+    /// Mean speed, positive about +z [rad/s]. At most 1e6 either way
     pub speed: f64,
-    /// Rotation angle at the start time [rad].
+    /// Rotation angle at time 0 [rad].
     pub angle: f64,
     /// Longest finite element [m]; a twentieth of the shaft when absent. > 0
     pub max_element_length: Option<f64>,

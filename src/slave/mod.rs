@@ -341,7 +341,7 @@ impl Slave {
         });
         let mut config = self.config.clone();
         if let (Some(tolerance), false) = (experiment.tolerance, self.tolerance_set) {
-            config.simulation.tolerance = tolerance.min(0.1);
+            config.simulation.tolerance = tolerance.clamp(1e-12, 0.1);
         }
         let model = self.design.assemble(&config)?;
         let start: Start = config.simulation.start;

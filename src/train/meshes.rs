@@ -8,6 +8,9 @@ use super::{GearAddress, Mesh, Rotor};
 use crate::config::{self, Config, MeshDamping, MeshStiffness, Place, Problem};
 use crate::mesh::{LineOfAction, StiffnessLaw, ToothPair, pair_damping};
 
+/// Highest mesh frequency [Hz]: a step ends at every breakpoint of the stiffness.
+const FASTEST_MESH: f64 = 1e6;
+
 /// Checks a mesh; `None` when something is wrong with it, which becomes problems.
 pub(super) fn resolve_mesh(
     place: &Place,
@@ -187,7 +190,7 @@ fn stiffness_law(stiffness: &MeshStiffness) -> StiffnessLaw {
     }
 }
 
-/// Speeds must fit the tooth numbers, around loops too.
+/// Speeds must fit the tooth numbers, around loops too, and no mesh may be too fast.
 pub(super) fn check_speeds(
     root: &Place,
     rotors: &[Rotor],
@@ -216,6 +219,16 @@ pub(super) fn check_speeds(
                 a.name,
                 a.speed,
                 b.speed
+            );
+            problems.push(place.problem("gears", message));
+        }
+    }
+    for (index, mesh) in meshes.iter().enumerate() {
+        if mesh.phase_rate.abs() > FASTEST_MESH {
+            let place = root.element("mesh", index, Some(&mesh.name));
+            let rate = mesh.phase_rate.abs();
+            let message = format!(
+                "gears: their teeth pass with {rate} Hz, at most {FASTEST_MESH} Hz can be followed"
             );
             problems.push(place.problem("gears", message));
         }

@@ -6,6 +6,8 @@ use crate::config::{self, BaseCircle, Config, Disk, Place, Planar, Problem};
 
 /// More elements than this on one shaft make the dense eigenproblem slow and gain nothing.
 const MOST_ELEMENTS: f64 = 400.0;
+/// No shaft turns faster [rad/s]; far above it, the teeth would pass in less than rounding of time.
+const FASTEST: f64 = 1e6;
 
 /// Checks a rotor; what is wrong with it becomes problems.
 pub(super) fn resolve_rotor(
@@ -15,7 +17,12 @@ pub(super) fn resolve_rotor(
     problems: &mut Vec<Problem>,
 ) -> Rotor {
     let mut rules = Rules { place, problems };
-    rules.finite("speed", rotor.speed);
+    rules.ensure("speed", rotor.speed.abs() <= FASTEST, || {
+        format!(
+            "must be within -{FASTEST} and {FASTEST} rad/s, found {} rad/s",
+            rotor.speed
+        )
+    });
     rules.finite("angle", rotor.angle);
     rules.not_negative("lateral_damping_ratio", rotor.lateral_damping_ratio, "");
     rules.not_negative("torsional_damping_ratio", rotor.torsional_damping_ratio, "");

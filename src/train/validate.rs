@@ -69,8 +69,10 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
 fn check_simulation(place: &Place, simulation: &config::Simulation, problems: &mut Vec<Problem>) {
     let mut rules = Rules { place, problems };
     let tolerance = simulation.tolerance;
-    rules.ensure("tolerance", tolerance > 0.0 && tolerance <= 0.1, || {
-        format!("must be greater than 0 and at most 0.1, found {tolerance}")
+    rules.ensure("tolerance", (1e-12..=0.1).contains(&tolerance), || {
+        format!(
+            "must be at least 1e-12, which is near rounding, and at most 0.1, found {tolerance}"
+        )
     });
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");

@@ -225,7 +225,8 @@ impl Forcing for Excitation<'_> {
     }
 }
 
-/// Breakpoints closer than this [pitches] to the present phase are behind.
+/// Breakpoints closer than this [pitches] to the present phase are behind, and closer than rounding of the
+/// phase, which grows over a long run.
 const PASSED: f64 = 1e-9;
 
 impl Mesh {
@@ -249,7 +250,8 @@ impl Mesh {
 
     /// The phase a moment later, beyond a breakpoint that has just been reached.
     fn phase_ahead(&self, time: f64) -> f64 {
-        self.phase(time) + self.phase_rate.signum() * PASSED
+        let phase = self.phase(time);
+        phase + self.phase_rate.signum() * PASSED.max(8.0 * f64::EPSILON * phase.abs())
     }
 
     fn next_breakpoint(&self, time: f64) -> f64 {
@@ -298,6 +300,18 @@ mod tests {
             for phase in phases {
                 time = mesh.next_breakpoint(time);
                 assert!((mesh.phase(time) - phase).abs() < 1e-12, "rounding only");
+            }
+        }
+    }
+
+    #[test]
+    fn breakpoints_never_repeat_however_long_the_run() {
+        for start in [0.0, 1e3, 1e6, 1e9, -1e6] {
+            let (mesh, mut time) = (mesh(1800.0), start);
+            for _ in 0..20 {
+                let next = mesh.next_breakpoint(time);
+                assert!(next > time, "{next} after {time}");
+                time = next;
             }
         }
     }

@@ -67,6 +67,9 @@ pub struct Experiment {
 /// the time itself: masters add up steps in floating point.
 const TIME_SLACK: (f64, f64) = (1e-3, 1e-9);
 
+/// Communication steps beyond this [s] are mistakes.
+const LONGEST_STEP: f64 = 1e9;
+
 impl Slave {
     /// An instance of a packed model (see [`Config::to_bytes`]).
     pub fn new(model: &[u8]) -> Result<Slave, Error> {
@@ -199,9 +202,9 @@ impl Slave {
         let Some(simulation) = &mut self.simulation else {
             return Err(Error::new("the simulation has not been started"));
         };
-        if step.is_nan() || step <= 0.0 || step.is_infinite() {
+        if step.is_nan() || step <= 0.0 || step > LONGEST_STEP {
             return Err(Error::new(format!(
-                "the communication step must be greater than 0 and finite, found {step} s"
+                "the communication step must be greater than 0 and at most {LONGEST_STEP} s, found {step} s"
             )));
         }
         let (now, end) = (simulation.time(), time + step);

@@ -160,6 +160,13 @@ pub enum StepError {
         /// The step asked for [s].
         step: f64,
     },
+    /// The call asks for more work than one call should do.
+    TooManySteps {
+        /// How far it came [s].
+        time: f64,
+        /// Steps taken.
+        steps: u64,
+    },
     /// The solution left the range of numbers, as that of an unstable system does in the end.
     NotFinite {
         /// Where [s].
@@ -318,6 +325,10 @@ impl fmt::Display for StepError {
                 f,
                 "at time {time} s the tolerance asks for a step of {step:e} s, too small to be taken; \
                  a larger tolerance may help"
+            ),
+            StepError::TooManySteps { time, steps } => write!(
+                f,
+                "after {steps} steps only time {time} s is reached; use smaller communication steps"
             ),
             StepError::NotFinite { time } => write!(
                 f,

@@ -55,6 +55,12 @@ const DISPLACEMENT_FLOOR: f64 = 1e-12;
 const OPERATORS: usize = 48;
 const OPERATOR_MEMORY: usize = 16 << 20;
 
+/// After this many steps of one call their average length must be useful [s]: no machine vibrates in the GHz.
+const PATIENCE: u64 = 1_000_000;
+const SMALLEST_USEFUL_STEP: f64 = 1e-11;
+/// No call takes more steps: some minutes of work.
+const MOST_STEPS: u64 = 100_000_000;
+
 /// The integrator with its workspace. It holds nothing that influences a result: everything that does
 /// is in the [`State`].
 #[derive(Debug, Clone)]
@@ -66,6 +72,9 @@ pub struct Newmark {
     differences: Vec<f64>,
     next_control: Control,
     counts: Counts,
+    /// Steps tried since `since`, the start of the present call.
+    tried: u64,
+    since: f64,
 }
 
 /// What both solutions share.
@@ -148,6 +157,8 @@ impl Newmark {
             differences: vec![0.0; system.monitors.len()],
             before,
             counts: Counts::default(),
+            tried: 0,
+            since: 0.0,
         }
     }
 
@@ -184,11 +195,13 @@ impl Newmark {
         until: f64,
         tolerance: f64,
     ) -> Result<(), StepError> {
+        (self.tried, self.since) = (0, state.time);
         // Less than rounding lets times differ is no stretch of time.
         let rounding = 4.0 * f64::EPSILON * until.abs();
         while state.time < until - rounding {
             let next = forcing.next_breakpoint(state.time);
-            let stop = if next < until - rounding { next } else { until };
+            let ahead = next > state.time + rounding && next < until - rounding;
+            let stop = if ahead { next } else { until };
             self.cross_smooth_stretch(system, forcing, state, stop, tolerance)?;
         }
         state.time = until;
@@ -228,6 +241,7 @@ impl Newmark {
             if start + 0.5 * step == start {
                 return Err(StepError::StepTooSmall { time: start, step });
             }
+            self.check_progress(start, step)?;
             for number in 1..=count {
                 let last = number == count;
                 let end = if last {
@@ -252,6 +266,21 @@ impl Newmark {
         Ok(())
     }
 
+    /// A call has to end: refuses to go on without end with steps that lead nowhere.
+    fn check_progress(&self, time: f64, step: f64) -> Result<(), StepError> {
+        let average = (time - self.since) / self.tried as f64;
+        if self.tried >= PATIENCE && average < SMALLEST_USEFUL_STEP {
+            return Err(StepError::StepTooSmall { time, step });
+        }
+        if self.tried >= MOST_STEPS {
+            return Err(StepError::TooManySteps {
+                time,
+                steps: self.tried,
+            });
+        }
+        Ok(())
+    }
+
     /// One coarse step and two fine ones, taken back if their error is more than 1.5 of the bound. Gives the
     /// error relative to the bound.
     fn try_step(
@@ -262,6 +291,7 @@ impl Newmark {
         span: Span,
         tolerance: f64,
     ) -> Result<f64, StepError> {
+        self.tried += 1;
         copy_tracks(&mut self.retry, &state.tracks);
         let [coarse, fine] = &mut self.work;
         self.kernel

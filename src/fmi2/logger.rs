@@ -39,12 +39,12 @@ impl Messages {
         }
     }
 
-    /// fmi2SetDebugLogging: no names mean all categories; unknown names are ignored.
+    /// fmi2SetDebugLogging: on with names means these categories only, without names all of them; unknown
+    /// names are ignored.
     pub(super) fn enable(&mut self, on: bool, names: &[&str]) {
+        let all = names.is_empty() || names.contains(&"logAll");
         for ((name, _), enabled) in LOG_CATEGORIES.iter().zip(&mut self.enabled) {
-            if names.is_empty() || names.contains(name) || names.contains(&"logAll") {
-                *enabled = on;
-            }
+            *enabled = on && (all || names.contains(name));
         }
     }
 

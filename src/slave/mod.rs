@@ -208,7 +208,7 @@ impl Slave {
             )));
         }
         let (now, end) = (simulation.time(), time + step);
-        let slack = TIME_SLACK.0 * step + TIME_SLACK.1 * now.abs().max(time.abs());
+        let slack = TIME_SLACK.0 * step + TIME_SLACK.1 * now.abs();
         if (time - now).is_nan() || (time - now).abs() > slack {
             return Err(Error::new(format!(
                 "the step starts at {time} s, but the slave is at {now} s"

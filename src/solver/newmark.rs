@@ -241,8 +241,8 @@ impl Newmark {
             if start + 0.5 * step == start {
                 return Err(StepError::StepTooSmall { time: start, step });
             }
-            self.check_progress(start, step)?;
             for number in 1..=count {
+                self.check_progress(state.time, step)?;
                 let last = number == count;
                 let end = if last {
                     stop

@@ -34,14 +34,30 @@ pub fn command() -> Result<(), String> {
     let environment =
         Environment::prepare("test-python", Path::new("tests/importers/requirements.txt"))?;
     step("Rust importers");
-    let libclang = environment.site_packages()?.join("clang/native");
-    let mut importers = Command::new("cargo");
-    importers
-        .args(["test", "--quiet", "--package", "importers"])
-        .env("LIBCLANG_PATH", libclang)
-        .env("BINDGEN_EXTRA_CLANG_ARGS", compiler_headers())
-        .env("GEARTRAIN_FMUS", &fmus);
-    shell::run(&mut importers)?;
+    for arguments in [
+        &[
+            "clippy",
+            "--quiet",
+            "--package",
+            "importers",
+            "--all-targets",
+            "--",
+            "--deny",
+            "warnings",
+        ][..],
+        &["test", "--quiet", "--package", "importers"][..],
+    ] {
+        let mut importers = Command::new("cargo");
+        importers
+            .args(arguments)
+            .env(
+                "LIBCLANG_PATH",
+                environment.site_packages()?.join("clang/native"),
+            )
+            .env("BINDGEN_EXTRA_CLANG_ARGS", compiler_headers())
+            .env("GEARTRAIN_FMUS", &fmus);
+        shell::run(&mut importers)?;
+    }
     step("Python importers");
     shell::run(
         environment

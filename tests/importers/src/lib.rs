@@ -1,1 +1,54 @@
-//! Tests only.
+//! What the tests of packed FMUs share: a host that can also do what no master should.
+//!
+//! ```text
+//!   Fmu         an unpacked FMU: library, guid, variables by name
+//!   Functions   the 34 C functions of its library
+//!   Host        the loaded library                       Birth   the arguments of fmi2Instantiate
+//!   Instance    one slave; freed when dropped            Arrays  NULL or too long arrays for it
+//!   calls       every function with harmless arguments, and the states in which it is legal
+//!   log         what the slave told the logger
+//! ```
+//!
+//! The tests themselves contain no unsafe code. `GEARTRAIN_FMUS` names the folder with the FMUs; run them with
+//! `cargo xtask test`.
+
+pub mod calls;
+pub mod fmu;
+pub mod functions;
+pub mod host;
+pub mod instance;
+pub mod log;
+
+pub use fmu::Fmu;
+pub use host::{Birth, Callbacks, Host};
+pub use instance::{Booleans, Instance, Integers, Reals, Strings};
+
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+/// Communication step of the tests [s]: that of the example's DefaultExperiment.
+pub const STEP: f64 = 2e-5;
+
+/// Runs `body` on a thread of its own and fails when it has not ended after `seconds`.
+pub fn within<T: Send + 'static>(
+    seconds: u64,
+    what: &str,
+    body: impl FnOnce() -> T + Send + 'static,
+) -> T {
+    let (sender, receiver) = mpsc::channel();
+    let runner = thread::spawn(move || sender.send(body()));
+    match receiver.recv_timeout(Duration::from_secs(seconds)) {
+        Ok(result) => result,
+        Err(mpsc::RecvTimeoutError::Timeout) => panic!("{what}: no end after {seconds} s"),
+        Err(mpsc::RecvTimeoutError::Disconnected) => match runner.join() {
+            Err(panicked) => std::panic::resume_unwind(panicked),
+            Ok(_) => unreachable!("{what}: ended without a result"),
+        },
+    }
+}
+
+/// The bits of numbers: equality that tells -0 from 0 and lets NaN equal itself.
+pub fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}

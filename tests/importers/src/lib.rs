@@ -30,21 +30,23 @@ use std::time::Duration;
 /// Communication step of the tests [s]: that of the example's DefaultExperiment.
 pub const STEP: f64 = 2e-5;
 
-/// Runs `body` on a thread of its own and fails when it has not ended after `seconds`.
+/// Runs `body` on a thread of its own; an error in words when it fails or has not ended after `seconds`.
 pub fn within<T: Send + 'static>(
     seconds: u64,
-    what: &str,
     body: impl FnOnce() -> T + Send + 'static,
-) -> T {
+) -> Result<T, String> {
     let (sender, receiver) = mpsc::channel();
     let runner = thread::spawn(move || sender.send(body()));
     match receiver.recv_timeout(Duration::from_secs(seconds)) {
-        Ok(result) => result,
-        Err(mpsc::RecvTimeoutError::Timeout) => panic!("{what}: no end after {seconds} s"),
-        Err(mpsc::RecvTimeoutError::Disconnected) => match runner.join() {
-            Err(panicked) => std::panic::resume_unwind(panicked),
-            Ok(_) => unreachable!("{what}: ended without a result"),
-        },
+        Ok(result) => Ok(result),
+        Err(mpsc::RecvTimeoutError::Timeout) => Err(format!("no end after {seconds} s")),
+        Err(mpsc::RecvTimeoutError::Disconnected) => {
+            let panicked = runner.join().err();
+            let words = panicked
+                .as_ref()
+                .and_then(|reason| reason.downcast_ref::<String>());
+            Err(words.map_or("failed", String::as_str).to_string())
+        }
     }
 }
 

@@ -82,31 +82,34 @@ fn run_with(instance: &Instance<'_>, parameters: &[(&str, f64)]) -> Option<Strin
     None
 }
 
-/// These values, one at a time and soon, are survived.
-fn survives(name: &'static str, values: &'static [f64]) {
-    for &value in values {
-        let what = format!("{name} = {value:e}");
-        within(SECONDS, &what, move || live_with(&[(name, value)]));
-    }
+/// Runs `life` with every value, soon, and fails with all values that break its claim.
+fn each(name: &str, values: &[f64], life: impl Fn(f64) + Copy + Send + 'static) {
+    let complaint = |&value: &f64| {
+        let outcome = within(SECONDS, move || life(value));
+        outcome
+            .err()
+            .map(|reason| format!("{name} = {value:e}: {reason}"))
+    };
+    let complaints: Vec<String> = values.iter().filter_map(complaint).collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
-/// These values, one at a time and soon, are refused with all `words` on leaving initialization.
-fn refuses(name: &'static str, values: &'static [f64], words: &[&str]) {
-    for &value in values {
-        let what = format!("{name} = {value:e}");
-        let refused = within(SECONDS, &what, move || live_with(&[(name, value)]));
-        let text = refused.unwrap_or_else(|| panic!("{what}: not refused"));
-        assert!(
-            text.starts_with("fmi2ExitInitializationMode: "),
-            "{what}: {text}"
-        );
+/// These values are survived.
+fn survives(name: &'static str, values: &[f64]) {
+    each(name, values, move |value| {
+        live_with(&[(name, value)]);
+    });
+}
+
+/// These values are refused with all `words` on leaving initialization.
+fn refuses(name: &'static str, values: &[f64], words: &'static [&'static str]) {
+    each(name, values, move |value| {
+        let text = live_with(&[(name, value)]).expect("a refusal");
+        assert!(text.starts_with("fmi2ExitInitializationMode: "), "{text}");
         for word in words {
-            assert!(
-                text.contains(word),
-                "{what}: {word:?} is missing in: {text}"
-            );
+            assert!(text.contains(word), "{word:?} is missing in: {text}");
         }
-    }
+    });
 }
 
 #[test]
@@ -151,7 +154,7 @@ fn tolerances() {
     refuses(
         "simulation.tolerance",
         &[0.0, -1e-4, 1e300, 0.2],
-        &["tolerance", "at least 1e-12"],
+        &["tolerance", "at most 0.1"],
     );
     survives("simulation.tolerance", &[1e-300, 5e-324, 1e-17, 1e-14, 0.1]);
 }
@@ -197,51 +200,60 @@ fn unbalances_and_vibration() {
 
 #[test]
 fn a_fast_and_strong_vibration() {
-    const BOTH: [(&str, f64); 2] = [
-        ("gearbox_vibration.amplitude_x", 1.0),
-        ("gearbox_vibration.frequency", 1e9),
-    ];
-    within(SECONDS, "vibration", || live_with(&BOTH));
+    each(
+        "amplitude_x = 1 m, frequency",
+        &[1e6, 1e9, 1e12],
+        |frequency| {
+            let amplitude = ("gearbox_vibration.amplitude_x", 1.0);
+            live_with(&[amplitude, ("gearbox_vibration.frequency", frequency)]);
+        },
+    );
+}
+
+/// The same stiffness for all bearings of stage 1.
+fn bearings_of_stage_1(stiffness: f64) -> [(&'static str, f64); 6] {
+    [
+        "stage1.b1.stiffness.xx",
+        "stage1.b1.stiffness.yy",
+        "stage1.b2.stiffness.xx",
+        "stage1.b2.stiffness.yy",
+        "stage1.b3.stiffness.xx",
+        "stage1.b3.stiffness.yy",
+    ]
+    .map(|name| (name, stiffness))
 }
 
 #[test]
 fn a_rotor_that_nothing_holds_is_refused_by_its_number() {
-    const LOOSE: [(&str, f64); 6] = [
-        ("stage1.b1.stiffness.xx", 0.0),
-        ("stage1.b1.stiffness.yy", 0.0),
-        ("stage1.b2.stiffness.xx", 0.0),
-        ("stage1.b2.stiffness.yy", 0.0),
-        ("stage1.b3.stiffness.xx", 0.0),
-        ("stage1.b3.stiffness.yy", 0.0),
-    ];
-    let text = within(SECONDS, "a loose rotor", || live_with(&LOOSE)).expect("a refusal");
-    assert!(
-        text.contains("rotor") && text.contains("equilibrium"),
-        "{text}"
-    );
+    each("all bearings of stage 1", &[0.0], |stiffness| {
+        let text = live_with(&bearings_of_stage_1(stiffness)).expect("a refusal");
+        assert!(
+            text.contains("rotor 1") && text.contains("equilibrium"),
+            "{text}"
+        );
+    });
 }
 
 #[test]
 fn a_rotor_that_hardly_anything_holds_works_or_is_refused() {
-    const SOFT: [(&str, f64); 6] = [
-        ("stage1.b1.stiffness.xx", 1e-300),
-        ("stage1.b1.stiffness.yy", 1e-300),
-        ("stage1.b2.stiffness.xx", 1e-300),
-        ("stage1.b2.stiffness.yy", 1e-300),
-        ("stage1.b3.stiffness.xx", 1e-300),
-        ("stage1.b3.stiffness.yy", 1e-300),
-    ];
-    within(SECONDS, "a soft rotor", || live_with(&SOFT));
+    each(
+        "all bearings of stage 1",
+        &[1e-300, 1e-9, 1.0, 1e300],
+        |stiffness| {
+            live_with(&bearings_of_stage_1(stiffness));
+        },
+    );
 }
 
 #[test]
 fn tolerances_of_the_experiment() {
-    for tolerance in [1e300, f64::INFINITY, 1.0, 1e-14, 1e-300] {
-        within(SECONDS, &format!("tolerance {tolerance:e}"), move || {
+    each(
+        "tolerance",
+        &[1e300, f64::INFINITY, 1.0, 1e-14, 1e-300, 5e-324],
+        |tolerance| {
             let host = Host::of("three_stage");
             let instance = host.instance();
-            let refused = answer(&instance, instance.setup(Some(tolerance), 0.0, None));
-            if refused.is_none() {
+            if answer(&instance, instance.setup(Some(tolerance), 0.0, None)).is_none() {
                 instance.accepted(instance.enter());
                 if answer(&instance, instance.exit()).is_none() {
                     answer(&instance, instance.step(0.0, STEP));
@@ -250,27 +262,24 @@ fn tolerances_of_the_experiment() {
             instance.accepted(instance.reset());
             instance.initialize();
             instance.steps(0, 2);
-        });
-    }
+        },
+    );
 }
 
 #[test]
 fn inputs() {
-    const INPUTS: [&str; 3] = [
+    for name in [
         "stage1.drive.torque",
         "stage1.b1.housing.x",
         "stage1.b1.housing.vy",
-    ];
-    for name in INPUTS {
-        for value in [1e300, -f64::MAX, 1e20, 5e-324] {
-            within(SECONDS, &format!("{name} = {value:e}"), move || {
-                absurd_input(name, value)
-            });
-        }
+    ] {
+        each(name, &[1e300, -f64::MAX, 1e20, 5e-324], |value| {
+            absurd_input(name, value)
+        });
     }
 }
 
-/// An input that is absurd at the start and for one step; the slave then fails in words or goes on, and can be
+/// An input that is absurd, from the start or from step mode on: the slave fails in words or goes on, and can be
 /// reset.
 fn absurd_input(name: &str, value: f64) {
     let host = Host::of("three_stage");

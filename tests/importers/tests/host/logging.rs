@@ -58,7 +58,13 @@ fn only_the_categories_asked_for_are_told() {
     // FMI 2.0.4, 2.1.5: with categories "only debug messages according to the categories" are printed.
     let host = Host::of("three_stage");
     let instance = host.running();
-    let cases: [(bool, &[Option<&str>], &[&str]); 7] = [
+    /// loggingOn, categories, categories told then.
+    type Case = (
+        bool,
+        &'static [Option<&'static str>],
+        &'static [&'static str],
+    );
+    let cases: [Case; 7] = [
         (true, &[], &[ERROR, DISCARD]),
         (false, &[], &[]),
         (true, &[Some(DISCARD)], &[DISCARD]),

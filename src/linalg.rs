@@ -23,8 +23,8 @@ pub struct Modes {
 /// ```
 ///
 /// The inverse form gives the lowest frequencies the full precision that the direct form gives the
-/// highest. The shift s is of the order of the lowest elastic w^2, so that rigid-body modes are
-/// regular too. Modes with more than 1e13 times the w^2 of the lowest one are left out: they are noise.
+/// highest. The shift s = min K_ii / M_ii / n^2 is of the order of the lowest elastic w^2 of a shaft, so
+/// that rigid-body modes are regular too; w^2 below 1e-9 s counts as 0. Modes with more than 1e13 times the w^2 of the lowest one are left out: they are noise.
 /// `None` when K or M is not what is asked for.
 pub fn natural_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Modes> {
     let n = mass.nrows();

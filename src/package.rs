@@ -44,10 +44,15 @@ impl Package {
             config,
             train,
             mut warnings,
+            lines,
         } = load(text).map_err(PackageError::Invalid)?;
         let model = ModalModel::assemble(&train, None).map_err(PackageError::Irreducible)?;
         let interface = Interface::of(&config, &train, &model);
-        warnings.extend(contradicting_flanks(&train, &model));
+        let doubtful = contradicting_flanks(&train, &model).into_iter();
+        warnings.extend(doubtful.map(|warning| Problem {
+            line: lines.find(&warning.key),
+            ..warning
+        }));
         Ok(Package {
             model_description: model_description(&config, &interface),
             documentation: documentation_page(&config, &train, &model, &interface),

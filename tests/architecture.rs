@@ -22,8 +22,7 @@ const FLOORS: [(&str, u32); 14] = [
     ("solver", 0),
 ];
 
-/// Neighbours on floor 0 that know each other: the solver is built on linear algebra; and the FMI layer
-/// takes its log categories from the description beside the slave, one floor down.
+/// Neighbours that know each other: the solver is built on linear algebra.
 const ALLOWED_NEIGHBOURS: [(&str, &str); 1] = [("solver", "linalg")];
 
 fn root() -> PathBuf {

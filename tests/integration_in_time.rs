@@ -116,7 +116,7 @@ fn work_stays_what_it_was() {
     let counts = simulation.counts();
     assert_eq!(
         (counts.steps, counts.rejected, counts.factorizations),
-        (7624, 30, 55)
+        (8050, 37, 145)
     );
 }
 
@@ -331,5 +331,50 @@ fn the_mesh_passes_on_momentum_and_takes_none() {
     assert!(
         (found / exact - 1.0).abs() < 1e-9,
         "{found} against {exact} N m s; rounding"
+    );
+}
+
+#[test]
+fn restoring_a_snapshot_continues_bit_for_bit() {
+    let text = case_four();
+    let mut simulation = started(&text, 1e-4);
+    record(&mut simulation, 2e-5, 100);
+    let snapshot = simulation.snapshot();
+    let first = record(&mut simulation, 2e-5, 100);
+    simulation.inputs_mut().torques[0] = 0.0;
+    simulation.advance_to(1.0e-2).unwrap();
+    simulation.restore(&snapshot);
+    assert_eq!(record(&mut simulation, 2e-5, 100).mesh, first.mesh);
+    // A fresh instance knows nothing of what happened before.
+    let mut other = started(&text, 1e-4);
+    other.restore(&snapshot);
+    assert_eq!(record(&mut other, 2e-5, 100).mesh, first.mesh);
+}
+
+#[test]
+fn a_rotor_without_a_mesh_does_not_depend_on_the_communication_step() {
+    let text = format!(
+        "{}[[rotor]]\nname = \"r\"\nspeed = 100.0\n[[rotor.segment]]\nlength = 0.6\nouter_diameter = 0.03\n\
+         [[rotor.disk]]\nposition = 0.1\nmass = 4.0\npolar_inertia = 0.05\ndiametral_inertia = 0.03\n\
+         [[rotor.disk]]\nposition = 0.5\nmass = 6.0\npolar_inertia = 0.09\ndiametral_inertia = 0.05\n\
+         [[rotor.bearing]]\nname = \"b1\"\nposition = 0.0\nstiffness = {{ xx = 1e8 }}\ndamping = {{ xx = 1e3 }}\n\
+         [[rotor.bearing]]\nname = \"b2\"\nposition = 0.6\nstiffness = {{ xx = 1e8 }}\ndamping = {{ xx = 1e3 }}\n\
+         [[rotor.torque]]\nname = \"t\"\nposition = 0.0\nvalue = 100.0\n\
+         [[rotor.probe]]\nname = \"end\"\nposition = 0.6\n[simulation]\nstart = \"rest\"\n",
+        support::head(4, 3)
+    );
+    let twist = |step: f64| {
+        let mut simulation = started(&text, 1e-5);
+        for index in 1..=(1e-2 / step).round() as u32 {
+            simulation.advance_to(f64::from(index) * step).unwrap();
+        }
+        let motion = simulation.motion();
+        let rotor = &motion.model.rotors[0];
+        motion.displacement(&rotor.torques[0]) - motion.displacement(&rotor.probes[0].theta)
+    };
+    let (fine, coarse) = (twist(1e-5), twist(1e-2));
+    assert!(
+        (fine / coarse - 1.0).abs() < 1e-4,
+        "{fine} rad against {coarse} rad; ten times the tolerance"
     );
 }

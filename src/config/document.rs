@@ -32,6 +32,8 @@ impl Lines {
 /// A parsed file, with the problems found so far.
 pub(super) struct Document<'t> {
     text: &'t str,
+    /// Offset of the first letter of every line.
+    line_starts: Vec<usize>,
     problems: RefCell<Vec<Problem>>,
     lines: RefCell<Lines>,
 }
@@ -46,8 +48,10 @@ pub(super) struct Table<'d, 't> {
 
 impl<'t> Document<'t> {
     pub(super) fn new(text: &'t str) -> Document<'t> {
+        let ends = text.match_indices('\n').map(|(offset, _)| offset + 1);
         Document {
             text,
+            line_starts: std::iter::once(0).chain(ends).collect(),
             problems: RefCell::default(),
             lines: RefCell::default(),
         }
@@ -86,11 +90,9 @@ impl<'t> Document<'t> {
         (self.problems.into_inner(), self.lines.into_inner())
     }
 
+    /// The line of an offset, counted from one.
     fn line(&self, offset: usize) -> usize {
-        1 + self.text.as_bytes()[..offset]
-            .iter()
-            .filter(|&&byte| byte == b'\n')
-            .count()
+        self.line_starts.partition_point(|&start| start <= offset)
     }
 }
 

@@ -6,8 +6,9 @@
 //!
 //! f holds the torques and the gearbox displacements, k_mean the mean mesh stiffness. Z spans the rigid
 //! rotations that no mesh resists; torque that nothing balances is carried by their acceleration mu, and
-//! the mean rotation (weighted with inertia) is zero. Per block K is inverted without the rigid rotation;
-//! what remains are the mesh forces F and the rigid rotations r:
+//! the mean rotation (weighted with inertia) is zero. A rigid rotation R of a rotor is a torsional motion
+//! below 0.05 Hz: with a torsional basis support, subtracted again, it is one only as nearly as the basis can
+//! represent it. Per block K is inverted without R; what remains are the mesh forces F and the rotations r:
 //!
 //! ```text
 //!   F / k_mean + (w K^-1 b) F - (w R) r = w K^-1 f           one row per coupling
@@ -21,6 +22,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Inputs, ModalModel};
 use crate::linalg::{multiply_add, solve_in_place};
+use crate::solver::Row;
 
 /// The static solution.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +43,8 @@ pub struct NoEquilibrium {
 /// Smallest pivot of a block's stiffness relative to its largest below which the block is loose:
 /// rounding leaves 1e-16, a mode of 1 Hz beside one of 1 MHz has 1e-12.
 const LOOSE: f64 = 1e-14;
+/// Squared circular frequency [rad^2/s^2] below which a torsional motion is rigid: 0.05 Hz.
+const RIGID: f64 = 0.1;
 
 /// Solves for the static displacement under the inputs' torques and gearbox displacements.
 pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, NoEquilibrium> {
@@ -55,7 +59,7 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
     let rigid = &compliance.rigid;
     let couplings = &model.system.couplings;
     let (m, r) = (couplings.len(), rigid.len());
-    let row_on_rigid = DMatrix::from_fn(m, r, |i, j| couplings[i].row.entry(rigid[j]));
+    let row_on_rigid = DMatrix::from_fn(m, r, |i, j| couplings[i].row.dot_row(&rigid[j]));
     let free = null_space(&row_on_rigid);
     let size = m + r + free.ncols();
 
@@ -70,13 +74,13 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
         for (l, other) in couplings.iter().enumerate() {
             matrix[(l, i)] += other.row.dot(&response);
         }
-        for (j, &coordinate) in rigid.iter().enumerate() {
+        for (j, rotation) in rigid.iter().enumerate() {
             matrix[(i, m + j)] = -row_on_rigid[(i, j)];
-            matrix[(m + j, i)] = coupling.column.entry(coordinate);
+            matrix[(m + j, i)] = coupling.column.dot_row(rotation);
         }
     }
-    for (j, &coordinate) in rigid.iter().enumerate() {
-        rhs[m + j] = load[coordinate];
+    for (j, rotation) in rigid.iter().enumerate() {
+        rhs[m + j] = rotation.dot(&load);
         for k in 0..free.ncols() {
             matrix[(m + j, m + r + k)] = free[(j, k)];
             matrix[(m + r + k, m + j)] = free[(j, k)];
@@ -90,8 +94,8 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
         coupling.column.add_to(-force, &mut load);
     }
     let mut position = compliance.apply(&load);
-    for (j, &coordinate) in rigid.iter().enumerate() {
-        position[coordinate] = rhs[m + j];
+    for (j, rotation) in rigid.iter().enumerate() {
+        rotation.add_to(rhs[m + j], &mut position);
     }
     // The first coupling of a mesh carries its (lateral) force.
     let first = |mesh: usize| model.coupling_mesh.iter().position(|&other| other == mesh);
@@ -104,12 +108,12 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
     })
 }
 
-/// K^-1 block by block, with zeros for the rigid rotations.
+/// K^-1 block by block, without the rigid rotations.
 struct Compliance<'a> {
     model: &'a ModalModel,
     inverses: Vec<DMatrix<f64>>,
-    /// Coordinates of the rigid rotations.
-    rigid: Vec<usize>,
+    /// R: the rigid rotations, as rows.
+    rigid: Vec<Row>,
 }
 
 impl<'a> Compliance<'a> {
@@ -119,15 +123,22 @@ impl<'a> Compliance<'a> {
         for (index, blocks) in model.system.blocks.chunks(2).enumerate() {
             let loose = NoEquilibrium { rotor: Some(index) };
             inverses.push(invert(&blocks[0].stiffness).ok_or(loose)?);
-            if model.rotors[index].has_rigid_rotation {
-                // A free shaft has no supports: its torsional stiffness is diagonal.
-                rigid.push(blocks[1].offset);
-                let elastic = blocks[1].stiffness.clone().remove_row(0).remove_column(0);
-                let inverse = invert(&elastic).ok_or(loose)?;
-                inverses.push(inverse.insert_row(0, 0.0).insert_column(0, 0.0));
-            } else {
-                inverses.push(invert(&blocks[1].stiffness).ok_or(loose)?);
+            // Torsion is symmetric: what its supports held and nothing else does is a rigid rotation.
+            let torsion = blocks[1].stiffness.clone().symmetric_eigen();
+            let mut inverse = DMatrix::zeros(blocks[1].len(), blocks[1].len());
+            for (value, shape) in torsion
+                .eigenvalues
+                .iter()
+                .zip(torsion.eigenvectors.column_iter())
+            {
+                if value.abs() < RIGID {
+                    let entries = shape.iter().copied().collect();
+                    rigid.push(Row::new(2 * index + 1, blocks[1].offset, entries));
+                } else {
+                    inverse += shape * shape.transpose() / *value;
+                }
             }
+            inverses.push(inverse);
         }
         Ok(Compliance {
             model,

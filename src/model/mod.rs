@@ -313,23 +313,69 @@ fn couplings(rotors: &[Rotor], mesh: &Mesh) -> Vec<Coupling> {
     }
 }
 
-/// The tolerance holds for the mesh forces; without meshes for the bearing forces.
+/// The tolerance holds for the mesh forces; on rotors without a mesh for the motion at bearings and of
+/// everything that turns.
 fn monitors(system: &System, rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Monitor> {
-    if meshes.is_empty() {
-        let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
-        let rows = bearings.flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
-        return rows
-            .map(|row| Monitor {
-                row: row.clone(),
-                damping_ratio: 0.0,
-            })
-            .collect();
-    }
-    let monitor = |mesh: &Mesh| Monitor {
-        row: mesh.row.clone(),
-        damping_ratio: mesh.ringing(system),
+    let monitor = |mesh: &Mesh| {
+        let (k, c) = (mesh.mean_stiffness(), mesh.damping);
+        let own = k * mesh.row.dot_row(&mesh.row); // squared frequency of the mesh by itself
+        let damping_ratio = lightest_damping(system, &mesh.row, k, c, 0.25 * own);
+        Monitor {
+            row: mesh.row.clone(),
+            damping_ratio,
+            rate_weight: c / k,
+        }
     };
-    meshes.iter().map(monitor).collect()
+    let mut monitors: Vec<Monitor> = meshes.iter().map(monitor).collect();
+    let meshed = |index: usize| {
+        meshes
+            .iter()
+            .any(|mesh| mesh.gears.iter().any(|gear| gear.rotor == index))
+    };
+    for (_, rotor) in rotors
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| !meshed(*index))
+    {
+        let bearings = rotor
+            .bearings
+            .iter()
+            .flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
+        let stations = rotor
+            .gears
+            .iter()
+            .chain(&rotor.probes)
+            .map(|station| &station.theta);
+        monitors.extend(
+            bearings
+                .chain(stations)
+                .chain(&rotor.torques)
+                .map(|row| Monitor {
+                    row: row.clone(),
+                    damping_ratio: lightest_damping(system, row, 0.0, 0.0, 0.0),
+                    rate_weight: 0.0,
+                }),
+        );
+    }
+    monitors
+}
+
+/// Damping ratio of the most lightly damped motion that a row takes part in above a squared frequency
+/// [rad^2/s^2], each modal coordinate by itself with a spring k and a damper c along the row:
+/// w_i^2 = K_ii + k w_i^2, 2 zeta_i w_i = D_ii + c w_i^2.
+fn lightest_damping(system: &System, row: &Row, k: f64, c: f64, above: f64) -> f64 {
+    let mut lightest = f64::INFINITY;
+    for block in &system.blocks {
+        for i in 0..block.len() {
+            let share = row.entry(block.offset + i);
+            let squared = block.stiffness[(i, i)] + k * share * share;
+            if share != 0.0 && squared > above {
+                let damping = block.damping[(i, i)] + c * share * share;
+                lightest = lightest.min(0.5 * damping / squared.sqrt());
+            }
+        }
+    }
+    if lightest.is_finite() { lightest } else { 0.0 }
 }
 
 impl Mesh {
@@ -341,26 +387,6 @@ impl Mesh {
     /// Mesh frequency [Hz].
     pub fn frequency(&self) -> f64 {
         self.phase_rate.abs()
-    }
-
-    /// Damping ratio of the most lightly damped motion that this mesh takes part in at half its own frequency
-    /// or above, each modal coordinate by itself with the mesh's mean stiffness k and damping c:
-    /// w_i^2 = K_ii + k w_i^2, 2 zeta_i w_i = D_ii + c w_i^2. The mesh's own frequency is sqrt(k w w').
-    fn ringing(&self, system: &System) -> f64 {
-        let (k, c) = (self.mean_stiffness(), self.damping);
-        let own = k * self.row.dot_row(&self.row);
-        let mut lightest = 0.5 * c * own.sqrt() / k;
-        for block in &system.blocks {
-            for i in 0..block.len() {
-                let share = self.row.entry(block.offset + i);
-                let squared = block.stiffness[(i, i)] + k * share * share;
-                if share != 0.0 && squared > 0.25 * own {
-                    let damping = block.damping[(i, i)] + c * share * share;
-                    lightest = lightest.min(0.5 * damping / squared.sqrt());
-                }
-            }
-        }
-        lightest
     }
 
     /// k at `time` [N/m]; at a jump the value that holds from then on.

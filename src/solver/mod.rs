@@ -40,6 +40,8 @@ pub struct Monitor {
     pub row: Row,
     /// Damping ratio of the most lightly damped fast motion in it: how long an error of phase lasts.
     pub damping_ratio: f64,
+    /// Damping per stiffness of the force that belongs to the displacement [s].
+    pub rate_weight: f64,
 }
 
 /// One diagonal block: coordinates `offset .. offset + n`, damping and stiffness n x n.

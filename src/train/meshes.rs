@@ -22,7 +22,10 @@ pub(super) fn resolve_mesh(
     let mut rules = Rules { place, problems };
     rules.finite("center_angle", mesh.center_angle);
     rules.pressure_angle(mesh.pressure_angle);
-    rules.finite("phase", mesh.phase.unwrap_or(0.0));
+    let phase = mesh.phase.unwrap_or(0.0);
+    rules.ensure("phase", phase.abs() <= 1e6, || {
+        format!("must be within -1e6 and 1e6 pitches, found {phase}")
+    });
     rules.positive("stiffness_factor", mesh.stiffness_factor, "");
     match mesh.damping {
         MeshDamping::Ratio(ratio) => rules.not_negative("damping_ratio", ratio, ""),

@@ -12,8 +12,8 @@ mod speeds;
 mod validate;
 
 use crate::config::{
-    self, Basis, BasisSupport, Bearing, Config, Disk, GearboxVibration, Material, Probe, Problem,
-    Simulation, Torque, TorqueCoupling, Unbalance,
+    self, Basis, BasisSupport, Bearing, Config, Disk, GearboxVibration, Lines, Material, Probe,
+    Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
 use crate::mesh::{LineOfAction, StiffnessLaw};
 
@@ -46,7 +46,7 @@ pub struct Rotor {
     pub name: String,
     /// Mean speed, positive about +z [rad/s].
     pub speed: f64,
-    /// Rotation angle at the start time [rad].
+    /// Rotation angle at time 0 [rad].
     pub angle: f64,
     /// Longest finite element [m].
     pub max_element_length: f64,
@@ -126,7 +126,7 @@ pub struct Mesh {
     pub stiffness_factor: f64,
     /// Damping c [N s/m].
     pub damping: f64,
-    /// Phase at the start time, rotation angle of gear a included [pitches].
+    /// Phase at time 0, rotation angle of gear a included [pitches].
     pub start_phase: f64,
     /// Change of the phase: signed mesh frequency [pitches/s].
     pub phase_rate: f64,
@@ -141,6 +141,8 @@ pub struct Loaded {
     pub train: GearTrain,
     /// What is allowed but probably not meant.
     pub warnings: Vec<Problem>,
+    /// Where every key stands.
+    pub lines: Lines,
 }
 
 impl Rotor {
@@ -175,6 +177,7 @@ pub fn load(text: &str) -> Result<Loaded, Vec<Problem>> {
         Ok((train, warnings)) if problems.is_empty() => {
             let warnings = warnings.into_iter().map(located).collect();
             Ok(Loaded {
+                lines,
                 config,
                 train,
                 warnings,

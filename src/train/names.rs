@@ -27,6 +27,14 @@ pub(super) fn check(config: &Config, problems: &mut Vec<Problem>) {
         let rule = "name: must be a C identifier of at most 64 characters";
         problems.push(root.problem("name", format!("{rule}, found \"{}\"", config.name)));
     }
+    if let Some(letter) = config
+        .description
+        .chars()
+        .find(|letter| letter.is_control())
+    {
+        let rule = "description: must be one line without control characters";
+        problems.push(root.problem("description", format!("{rule}, found {letter:?}")));
+    }
     let mut top = Namespace::new(&RESERVED_AT_TOP, "among rotors and meshes");
     for (index, rotor) in config.rotors.iter().enumerate() {
         let place = root.element("rotor", index, Some(&rotor.name));

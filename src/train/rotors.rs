@@ -6,6 +6,10 @@ use crate::config::{self, BaseCircle, Config, Disk, Place, Planar, Problem};
 
 /// More elements than this on one shaft make the dense eigenproblem slow and gain nothing.
 const MOST_ELEMENTS: f64 = 400.0;
+/// Every place is a station; more of them make the dense eigenproblem slow.
+const MOST_ATTACHED: usize = 400;
+/// Larger angles leave too few digits for the phase of the teeth [rad].
+const LARGEST_ANGLE: f64 = 1e6;
 /// No shaft turns faster [rad/s]; far above it, the teeth would pass in less than rounding of time.
 const FASTEST: f64 = 1e6;
 
@@ -23,7 +27,28 @@ pub(super) fn resolve_rotor(
             rotor.speed
         )
     });
-    rules.finite("angle", rotor.angle);
+    rules.ensure("angle", rotor.angle.abs() <= LARGEST_ANGLE, || {
+        format!(
+            "must be within -{LARGEST_ANGLE} and {LARGEST_ANGLE} rad, found {} rad",
+            rotor.angle
+        )
+    });
+    let attached = [
+        rotor.segments.len(),
+        rotor.disks.len(),
+        rotor.gears.len(),
+        rotor.bearings.len(),
+        rotor.unbalances.len(),
+        rotor.torques.len(),
+        rotor.basis_supports.len(),
+        rotor.probes.len(),
+    ];
+    let attached: usize = attached.iter().sum();
+    rules.ensure("name", attached <= MOST_ATTACHED, || {
+        format!(
+            "a rotor may have at most {MOST_ATTACHED} segments and things on it, found {attached}"
+        )
+    });
     rules.not_negative("lateral_damping_ratio", rotor.lateral_damping_ratio, "");
     rules.not_negative("torsional_damping_ratio", rotor.torsional_damping_ratio, "");
     rules.ensure("segment", !rotor.segments.is_empty(), || {

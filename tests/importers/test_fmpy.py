@@ -89,12 +89,14 @@ def alternating_error(found, exact):
     return np.sqrt(np.mean((found - exact) ** 2)) / np.std(exact)
 
 
-@pytest.mark.parametrize("step", [2e-5, 5e-6])
-def test_gearbox_vibration_from_a_csv_file_is_seen_with_the_delay_of_held_inputs(three_stage, tmp_path, step):
+@pytest.mark.parametrize("step, rows_per_step", [(2e-5, 1), (5e-6, 1), (5e-6, 0.25)])
+def test_gearbox_vibration_from_a_csv_file_is_seen_with_the_delay_of_held_inputs(
+        three_stage, tmp_path, step, rows_per_step):
     """1200 Hz against the reference with continuous motion. FMPy sets the inputs of a step's start and reads
     the outputs at its end: the bearing force, K u_b for the most part, lags by a step, 2 pi 1200 h; the mesh
-    force follows the motion itself, which lags by half a step."""
-    table = housing_motion(rate=1 / step)
+    force follows the motion itself, which lags by half a step. Between the rows of a coarser table FMPy
+    interpolates linearly: at 20 us that adds (w dt)^2 / 8 = 0.3 %."""
+    table = housing_motion(rate=rows_per_step / step)
     file = tmp_path / "gearbox motion.csv"
     names = table.dtype.names
     header = ",".join(f'"{name}"' for name in names)

@@ -10,15 +10,15 @@ use crate::{pack, shell};
 /// Prints the rotors with their frequencies and the meshes. A file `<model>.published.csv` beside the model
 /// (rotor,kind,mode,frequency_hz,source) is shown for comparison.
 pub fn command(path: &Path) -> Result<(), String> {
-    let loaded = load(&shell::read(path)?).map_err(|problems| pack::located(path, &problems))?;
-    for warning in &loaded.warnings {
-        println!("warning: {warning}");
-    }
+    pack::describe(path)?; // prints warnings
+    let loaded =
+        load(&shell::read(path)?).map_err(|problems| pack::located(path, "", &problems))?;
     let model = ModalModel::assemble(&loaded.train, None).map_err(|error| error.to_string())?;
     let published = Published::beside(path)?;
     println!("{}: {}\n", loaded.train.name, loaded.train.description);
     print_frequencies(&loaded.train, &model, &published);
     print_meshes(&loaded.train, &model);
+    print_coupled(&model);
     Ok(())
 }
 
@@ -82,6 +82,32 @@ fn print_meshes(train: &GearTrain, model: &ModalModel) {
             modal.frequency(),
             modal.mean_stiffness(),
             modal.damping
+        );
+    }
+}
+
+/// Natural vibrations of the coupled train, up to three times the highest mesh frequency.
+fn print_coupled(model: &ModalModel) {
+    let fastest = model
+        .meshes
+        .iter()
+        .map(geartrain::model::Mesh::frequency)
+        .fold(0.0, f64::max);
+    let Some(vibrations) = model.natural_vibrations().filter(|_| fastest > 0.0) else {
+        return;
+    };
+    println!(
+        "\nCoupled natural vibrations at speed, with the mean mesh stiffness, up to three times the mesh frequency"
+    );
+    println!("  {:>12} {:>12}", "f [Hz]", "damping [%]");
+    for one in vibrations
+        .iter()
+        .filter(|one| one.damped_frequency > 0.0 && one.frequency < 3.0 * fastest)
+    {
+        println!(
+            "  {:>12.3} {:>12.4}",
+            one.frequency,
+            100.0 * one.damping_ratio
         );
     }
 }

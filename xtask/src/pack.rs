@@ -47,6 +47,21 @@ pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
     if !problems.is_empty() {
         return Err(problems.join("\n"));
     }
+    let names = || {
+        packages
+            .iter()
+            .flatten()
+            .map(|(package, _)| &package.model_identifier)
+    };
+    if let Some(twice) = names()
+        .enumerate()
+        .find(|(index, name)| names().take(*index).any(|other| other == *name))
+    {
+        return Err(format!(
+            "two of the model files have the same name: \"{}\"",
+            twice.1
+        ));
+    }
     let platform = Platform::native()
         .ok_or("FMI 2.0 has no name for this platform; FMUs cannot be packed on it")?;
     let library =
@@ -75,23 +90,20 @@ pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
 /// Reads and checks a model file; warnings are printed, problems are the error.
 pub fn describe(path: &Path) -> Result<Package, String> {
     let package = Package::of(&shell::read(path)?).map_err(|error| match error {
-        PackageError::Invalid(problems) => located(path, &problems),
+        PackageError::Invalid(problems) => located(path, "", &problems),
         PackageError::Irreducible(error) => format!("{}: {error}", path.display()),
     })?;
     if !package.warnings.is_empty() {
-        eprintln!(
-            "{}",
-            located(path, &package.warnings).replace(": ", ": warning: ")
-        );
+        eprintln!("{}", located(path, "warning: ", &package.warnings));
     }
     Ok(package)
 }
 
-/// One line per problem: `file:line: place: message`.
-pub fn located(path: &Path, problems: &[geartrain::config::Problem]) -> String {
+/// One line per problem: `file:line: place: message`, with `kind` before the place.
+pub fn located(path: &Path, kind: &str, problems: &[geartrain::config::Problem]) -> String {
     let line = |problem: &geartrain::config::Problem| match problem.line {
-        Some(line) => format!("{}:{line}: {problem}", path.display()),
-        None => format!("{}: {problem}", path.display()),
+        Some(line) => format!("{}:{line}: {kind}{problem}", path.display()),
+        None => format!("{}: {kind}{problem}", path.display()),
     };
     problems.iter().map(line).collect::<Vec<_>>().join("\n")
 }

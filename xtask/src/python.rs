@@ -29,7 +29,7 @@ impl Environment {
                 .args(["-m", "venv", "--clear"])
                 .arg(&environment.folder),
         )
-        .map_err(|error| format!("{error}\nPython 3.9 or newer with venv is needed"))?;
+        .map_err(|error| format!("{error}\nPython 3.11 or newer with venv is needed"))?;
         shell::run(
             environment
                 .python()

@@ -23,6 +23,7 @@ pub use fmu::Fmu;
 pub use host::{Birth, Callbacks, Host};
 pub use instance::{Booleans, Instance, Integers, Reals, Strings};
 
+use core::any::Any;
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
@@ -42,15 +43,32 @@ pub fn within<T: Send + 'static>(
         Err(mpsc::RecvTimeoutError::Timeout) => Err(format!("no end after {seconds} s")),
         Err(mpsc::RecvTimeoutError::Disconnected) => {
             let panicked = runner.join().err();
-            let words = panicked
-                .as_ref()
-                .and_then(|reason| reason.downcast_ref::<String>());
-            Err(words.map_or("failed", String::as_str).to_string())
+            Err(panicked.map_or("no result".to_string(), |reason| words(&*reason)))
         }
     }
+}
+
+/// What a panic said.
+fn words(panicked: &(dyn Any + Send)) -> String {
+    let literal = panicked.downcast_ref::<&str>().map(ToString::to_string);
+    let words = literal.or_else(|| panicked.downcast_ref::<String>().cloned());
+    words.unwrap_or_else(|| "failed".to_string())
 }
 
 /// The bits of numbers: equality that tells -0 from 0 and lets NaN equal itself.
 pub fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
+}
+
+/// Fails at the first number that is not the same to the bit. `per_step` numbers belong to one step.
+#[track_caller]
+pub fn assert_same_bits(found: &[f64], expected: &[f64], per_step: usize) {
+    assert_eq!(found.len(), expected.len(), "numbers");
+    let differs = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
+    let first = found.iter().zip(expected).position(differs);
+    if let Some(index) = first {
+        let (step, number) = (index / per_step + 1, index % per_step + 1);
+        let (found, expected) = (found[index], expected[index]);
+        panic!("step {step}, number {number}: {found:?}, expected {expected:?}");
+    }
 }

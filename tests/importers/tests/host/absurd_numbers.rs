@@ -274,7 +274,7 @@ fn inputs() {
         "stage1.b1.housing.vy",
     ] {
         each(name, &[1e300, -f64::MAX, 1e20, 5e-324], |value| {
-            absurd_input(name, value)
+            absurd_input(name, value);
         });
     }
 }

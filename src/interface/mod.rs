@@ -10,7 +10,7 @@ mod table;
 mod unit;
 
 use crate::config::Config;
-use crate::model::{ModalModel, Motion};
+use crate::model::{Inputs, ModalModel, Motion};
 use crate::train::{GearAddress, GearTrain};
 
 pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
@@ -174,17 +174,32 @@ impl Variable {
 }
 
 impl Quantity {
-    /// The value of everything that follows from model, state and inputs; parameters and speeds derived
-    /// from them are read from the configuration instead, and give NaN here.
+    /// The place of an input among the inputs; `None` for everything else.
+    pub fn input(self, inputs: &mut Inputs) -> Option<&mut f64> {
+        match self {
+            Quantity::Torque { torque } => inputs.torques.get_mut(torque),
+            Quantity::BaseDisplacement { bearing, axis } => inputs
+                .bases
+                .get_mut(bearing)
+                .map(|base| &mut base.displacement[axis]),
+            Quantity::BaseVelocity { bearing, axis } => inputs
+                .bases
+                .get_mut(bearing)
+                .map(|base| &mut base.velocity[axis]),
+            _ => None,
+        }
+    }
+
+    /// The value of everything that follows from model, state and inputs. Inputs have their place in
+    /// [`Quantity::input`], parameters and speeds derived from them in the configuration: they give NaN here.
     pub fn evaluate(self, motion: &Motion<'_>) -> f64 {
         let rotors = &motion.model.rotors;
         match self {
-            Quantity::Torque { torque } => motion.inputs.torques[torque],
-            Quantity::BaseDisplacement { bearing, axis } => {
-                motion.inputs.bases[bearing].displacement[axis]
-            }
-            Quantity::BaseVelocity { bearing, axis } => motion.inputs.bases[bearing].velocity[axis],
-            Quantity::Parameter(_) | Quantity::DerivedSpeed { .. } => f64::NAN,
+            Quantity::Torque { .. }
+            | Quantity::BaseDisplacement { .. }
+            | Quantity::BaseVelocity { .. }
+            | Quantity::Parameter(_)
+            | Quantity::DerivedSpeed { .. } => f64::NAN,
             Quantity::LateralFrequency { rotor, mode } => rotors[rotor].lateral_frequencies[mode],
             Quantity::TorsionalFrequency { rotor, mode } => {
                 rotors[rotor].torsional_frequencies[mode]

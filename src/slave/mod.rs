@@ -10,14 +10,15 @@
 //! module that knows FMI's modes; knows no pointers.
 
 mod calls;
+mod design;
 mod error;
 
 use crate::config::{Config, Start};
-use crate::interface::{Causality, Interface, Parameter, Quantity};
-use crate::model::{Inputs, ModalModel};
-use crate::rotor::ModeCounts;
+use crate::interface::{Causality, Parameter, Quantity};
+use crate::model::Inputs;
 use crate::simulation::Simulation;
-use crate::train::{SpeedRatio, speed_ratios, validate};
+
+use design::Design;
 
 pub use calls::{Call, LifeCycle};
 pub use error::{Error, Kind};
@@ -36,20 +37,6 @@ pub struct Slave {
     /// The model under the present parameters, started under the present inputs; `None` when either changed
     /// before step mode.
     simulation: Option<Simulation>,
-}
-
-/// What never changes: the model as it was packed.
-#[derive(Debug, Clone)]
-struct Design {
-    config: Config,
-    interface: Interface,
-    guid: String,
-    /// Kept when parameters change, because the variables of the modes are fixed.
-    mode_counts: Vec<ModeCounts>,
-    ratios: Vec<SpeedRatio>,
-    torques: Vec<f64>,
-    bearings: usize,
-    model: ModalModel,
 }
 
 /// What fmi2SetupExperiment says.
@@ -241,12 +228,12 @@ impl Slave {
 
     fn read(&mut self, reference: u32) -> Result<f64, Error> {
         let quantity = self.design.variable(reference)?.quantity;
+        if let Some(input) = quantity.input(&mut self.inputs) {
+            return Ok(*input);
+        }
         match quantity {
             Quantity::Parameter(parameter) => Ok(*parameter.slot(&mut self.config)),
             Quantity::DerivedSpeed { rotor } => Ok(self.config.rotors[rotor].speed),
-            Quantity::Torque { .. }
-            | Quantity::BaseDisplacement { .. }
-            | Quantity::BaseVelocity { .. } => Ok(self.read_input(quantity)),
             _ if self.life_cycle == LifeCycle::Instantiated => {
                 let name = &self.design.variable(reference)?.name;
                 Err(Error::new(format!(
@@ -254,17 +241,6 @@ impl Slave {
                 )))
             }
             _ => Ok(quantity.evaluate(&self.started()?.motion())),
-        }
-    }
-
-    fn read_input(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Torque { torque } => self.inputs.torques[torque],
-            Quantity::BaseDisplacement { bearing, axis } => {
-                self.inputs.bases[bearing].displacement[axis]
-            }
-            Quantity::BaseVelocity { bearing, axis } => self.inputs.bases[bearing].velocity[axis],
-            _ => f64::NAN,
         }
     }
 
@@ -314,15 +290,8 @@ impl Slave {
                 }
                 let running = self.simulation.as_mut().map(Simulation::inputs_mut);
                 for inputs in running.into_iter().chain([&mut self.inputs]) {
-                    match quantity {
-                        Quantity::Torque { torque } => inputs.torques[torque] = value,
-                        Quantity::BaseDisplacement { bearing, axis } => {
-                            inputs.bases[bearing].displacement[axis] = value;
-                        }
-                        Quantity::BaseVelocity { bearing, axis } => {
-                            inputs.bases[bearing].velocity[axis] = value;
-                        }
-                        _ => {}
+                    if let Some(input) = quantity.input(inputs) {
+                        *input = value;
                     }
                 }
             }
@@ -360,54 +329,4 @@ impl Slave {
         )
         .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
     }
-}
-
-impl Design {
-    fn of(config: Config) -> Result<Design, Error> {
-        let (train, _) = validate(&config).map_err(|problems| joined(&problems))?;
-        let model =
-            ModalModel::assemble(&train, None).map_err(|error| Error::new(error.to_string()))?;
-        let interface = Interface::of(&config, &train, &model);
-        Ok(Design {
-            guid: interface.fingerprint(&config),
-            mode_counts: model.counts(),
-            ratios: speed_ratios(&train),
-            torques: train
-                .rotors
-                .iter()
-                .flat_map(|rotor| &rotor.torques)
-                .map(|torque| torque.value)
-                .collect(),
-            bearings: model.bearings().count(),
-            interface,
-            config,
-            model,
-        })
-    }
-
-    fn variable(&self, reference: u32) -> Result<&crate::interface::Variable, Error> {
-        let index = usize::try_from(reference).unwrap_or(usize::MAX);
-        self.interface.variables.get(index).ok_or_else(|| {
-            Error::new(format!(
-                "value reference {reference} is unknown to this FMU"
-            ))
-        })
-    }
-
-    /// The model under these parameters; the packed one when nothing that it depends on was changed.
-    fn assemble(&self, config: &Config) -> Result<ModalModel, Error> {
-        let (train, _) = validate(config).map_err(|problems| joined(&problems))?;
-        let mut comparable = config.clone();
-        comparable.simulation.clone_from(&self.config.simulation);
-        if comparable == self.config {
-            return Ok(self.model.clone());
-        }
-        ModalModel::assemble(&train, Some(&self.mode_counts))
-            .map_err(|error| Error::new(error.to_string()))
-    }
-}
-
-fn joined(problems: &[crate::config::Problem]) -> Error {
-    let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    Error::new(format!("the model is not valid: {}", sentences.join("; ")))
 }

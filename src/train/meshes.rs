@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::rules::Rules;
-use super::speeds::{Transmission, spread};
+use super::speeds::{spread, transmissions};
 use super::{GearAddress, Mesh, Rotor};
 use crate::config::{self, Config, MeshDamping, MeshStiffness, Place, Problem};
 use crate::mesh::{LineOfAction, StiffnessLaw, ToothPair, pair_damping};
@@ -201,13 +201,7 @@ pub(super) fn check_speeds(
     problems: &mut Vec<Problem>,
 ) {
     let teeth = |address: GearAddress| rotors[address.rotor].gears[address.gear].teeth;
-    let transmissions: Vec<Transmission> = meshes
-        .iter()
-        .map(|mesh| Transmission {
-            rotors: mesh.gears.map(|gear| gear.rotor),
-            ratio: -f64::from(teeth(mesh.gears[0])) / f64::from(teeth(mesh.gears[1])),
-        })
-        .collect();
+    let transmissions = transmissions(rotors, meshes);
     for (index, (mesh, transmission)) in meshes.iter().zip(&transmissions).enumerate() {
         let [a, b] = transmission.rotors.map(|rotor| &rotors[rotor]);
         let expected = a.speed * transmission.ratio;

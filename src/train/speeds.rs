@@ -1,5 +1,7 @@
 //! Meshes tie speeds together: Om_b = -Om_a z_a / z_b.
 
+use super::{GearTrain, Mesh, Rotor};
+
 /// The speed of a rotor as a multiple of the speed of the first rotor it is meshed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedRatio {
@@ -72,16 +74,25 @@ pub(super) fn spread(
     (ratios, contradictions)
 }
 
-/// The speed ratios of a valid train, one per rotor.
-pub fn speed_ratios(train: &super::GearTrain) -> Vec<SpeedRatio> {
-    let transmission = |mesh: &super::Mesh| {
-        let [a, b] = mesh.gears;
-        let (teeth_a, teeth_b) = (train.gear(a).teeth, train.gear(b).teeth);
+/// The meshes as transmissions.
+pub(super) fn transmissions(rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Transmission> {
+    let transmission = |mesh: &Mesh| {
+        let teeth = mesh
+            .gears
+            .map(|gear| f64::from(rotors[gear.rotor].gears[gear.gear].teeth));
         Transmission {
-            rotors: [a.rotor, b.rotor],
-            ratio: -f64::from(teeth_a) / f64::from(teeth_b),
+            rotors: mesh.gears.map(|gear| gear.rotor),
+            ratio: -teeth[0] / teeth[1],
         }
     };
-    let transmissions: Vec<Transmission> = train.meshes.iter().map(transmission).collect();
-    spread(train.rotors.len(), &transmissions).0
+    meshes.iter().map(transmission).collect()
+}
+
+/// The speed ratios of a valid train, one per rotor.
+pub fn speed_ratios(train: &GearTrain) -> Vec<SpeedRatio> {
+    spread(
+        train.rotors.len(),
+        &transmissions(&train.rotors, &train.meshes),
+    )
+    .0
 }

@@ -71,8 +71,12 @@ impl<'h> Instance<'h> {
         self.host
     }
 
-    fn functions(&self) -> &'h Functions {
+    pub(crate) fn functions(&self) -> &'h Functions {
         self.host.functions()
+    }
+
+    pub(crate) fn component(&self) -> Component {
+        self.component
     }
 
     /// What the logger was told since the last look.

@@ -4,7 +4,7 @@
 //!   Fmu         an unpacked FMU: library, guid, variables by name
 //!   Functions   the 34 C functions of its library
 //!   Host        the loaded library                       Birth   the arguments of fmi2Instantiate
-//!   Instance    one slave; freed when dropped            Arrays  NULL or too long arrays for it
+//!   Instance    one slave; freed when dropped            optional  its functions behind capability flags
 //!   calls       every function with harmless arguments, and the states in which it is legal
 //!   log         what the slave told the logger
 //! ```
@@ -18,6 +18,7 @@ pub mod functions;
 pub mod host;
 pub mod instance;
 pub mod log;
+pub mod optional;
 
 pub use fmu::Fmu;
 pub use host::{Birth, Callbacks, Host};

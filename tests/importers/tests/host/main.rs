@@ -8,5 +8,6 @@ mod arguments;
 mod births;
 mod legality;
 mod logging;
+mod optional;
 mod steps;
 mod threads;

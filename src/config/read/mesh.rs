@@ -1,0 +1,148 @@
+//! `[[mesh]]` with its stiffness law.
+
+use super::super::document::Table;
+use super::super::{Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+
+pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
+    if table.boolean_or("internal", false) {
+        table.not_yet("internal", "an internal gear (internal = true)");
+    }
+    if table.choice(
+        "contact",
+        Some(true),
+        &[("bilateral", true), ("unilateral", false)],
+    ) == Some(false)
+    {
+        table.not_yet("contact", "contact = \"unilateral\"");
+    }
+    if table.number_or("backlash", 0.0) != 0.0 {
+        let message = "must be 0 with bilateral contact (unilateral contact is not available yet)";
+        table.problem("backlash", message);
+    }
+    table.not_yet("transmission_error", "transmission error");
+    let consistent = TorqueCoupling::Consistent;
+    let couplings = [
+        ("consistent", consistent),
+        ("as_printed", TorqueCoupling::AsPrinted),
+    ];
+    let mesh = Mesh {
+        name: table.string("name"),
+        gears: table.pair_of_strings("gears"),
+        center_angle: table.number("center_angle"),
+        pressure_angle: table.number("pressure_angle"),
+        flank: flank(&table),
+        phase: table.optional_number("phase"),
+        damping: mesh_damping(&table),
+        torque_coupling: table
+            .choice("torque_coupling", Some(consistent), &couplings)
+            .unwrap_or(consistent),
+        stiffness: mesh_stiffness(&table),
+        stiffness_factor: 1.0,
+    };
+    table.finish();
+    mesh
+}
+
+fn flank(table: &Table<'_, '_>) -> Flank {
+    match table.number_or("flank", 1.0) {
+        1.0 => Flank::Positive,
+        -1.0 => Flank::Negative,
+        other => {
+            if other.is_finite() {
+                table.problem("flank", format!("must be +1 or -1, found {other}"));
+            }
+            Flank::Positive
+        }
+    }
+}
+
+fn mesh_damping(table: &Table<'_, '_>) -> MeshDamping {
+    match (
+        table.optional_number("damping_ratio"),
+        table.optional_number("damping"),
+    ) {
+        (Some(_), Some(_)) => {
+            let message = "contradicts damping_ratio; give one or the other";
+            table.problem("damping", message);
+            MeshDamping::Ratio(0.0)
+        }
+        (Some(ratio), None) => MeshDamping::Ratio(ratio),
+        (None, Some(coefficient)) => MeshDamping::Coefficient(coefficient),
+        (None, None) => MeshDamping::Ratio(0.0),
+    }
+}
+
+fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
+    let placeholder = MeshStiffness::Constant { mean: 1.0 };
+    let Some(table) = mesh.table("stiffness") else {
+        if !mesh.has("stiffness") {
+            mesh.problem("stiffness", "missing; write a table [mesh.stiffness]");
+        }
+        return placeholder;
+    };
+    type ReadLaw = fn(&Table<'_, '_>) -> MeshStiffness;
+    let laws: [(&str, ReadLaw); 5] = [
+        ("constant", |table| MeshStiffness::Constant {
+            mean: table.number("mean"),
+        }),
+        ("rectangular", rectangular),
+        ("tooth_pair", tooth_pair),
+        ("fourier", not_yet_a_law),
+        ("table", not_yet_a_law),
+    ];
+    // Without a law nobody can say which keys are known: the table is not finished.
+    let Some(read_law) = table.choice("law", None, &laws) else {
+        return placeholder;
+    };
+    let stiffness = read_law(&table);
+    table.finish();
+    stiffness
+}
+
+fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
+    let contact_ratio = table.number("contact_ratio");
+    let pair = table.optional_number("pair");
+    let single = table.optional_number("single");
+    let double = table.optional_number("double");
+    match (pair, single, double) {
+        (Some(pair), None, None) => MeshStiffness::Rectangular {
+            fewer_pairs: contact_ratio.floor() * pair,
+            more_pairs: (contact_ratio.floor() + 1.0) * pair,
+            contact_ratio,
+        },
+        (None, Some(single), Some(double)) => {
+            if contact_ratio >= 2.0 {
+                let rule = "with single and double must be in [1, 2)";
+                table.problem("contact_ratio", format!("{rule}, found {contact_ratio}"));
+            }
+            MeshStiffness::Rectangular {
+                fewer_pairs: single,
+                more_pairs: double,
+                contact_ratio,
+            }
+        }
+        _ => {
+            let message = "missing or ambiguous; give either pair alone, or single and double";
+            table.problem("pair", message);
+            MeshStiffness::Constant { mean: 1.0 }
+        }
+    }
+}
+
+fn tooth_pair(table: &Table<'_, '_>) -> MeshStiffness {
+    MeshStiffness::ToothPair {
+        pair: table.number("pair"),
+        quadratic: table.number_or("quadratic", 0.0),
+        quartic: table.number_or("quartic", 0.0),
+        ramp: table.number_or("ramp", 0.0),
+        contact_ratio: table.number("contact_ratio"),
+    }
+}
+
+fn not_yet_a_law(table: &Table<'_, '_>) -> MeshStiffness {
+    for key in ["mean", "cosine", "sine", "phase", "value"] {
+        table.has(key);
+    }
+    table.not_yet("law", "this law");
+    MeshStiffness::Constant { mean: 1.0 }
+}

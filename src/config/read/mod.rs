@@ -1,0 +1,157 @@
+//! From the text of a model file to a [`Config`]: which keys exist, their types and defaults.
+
+mod mesh;
+mod rotor;
+
+use super::document::{Document, Lines, Table};
+use super::{Basis, Config, GearboxVibration, Material, Problem, Simulation, Start};
+
+/// What a model file says, and what is wrong with it.
+#[derive(Debug)]
+pub struct Reading {
+    /// Everything that could be read, with placeholders (NaN, empty) where there are problems; `None`
+    /// when the text is not TOML.
+    pub config: Option<Config>,
+    /// Syntax errors, missing keys, wrong types, unknown keys.
+    pub problems: Vec<Problem>,
+    /// Where every key stands.
+    pub lines: Lines,
+}
+
+/// Reads the text of a model file.
+pub fn read(text: &str) -> Reading {
+    let document = Document::new(text);
+    let parsed = document.parse();
+    let config = parsed
+        .as_ref()
+        .map(|entries| top(document.top(entries.get_ref())));
+    let (problems, lines) = document.into_findings();
+    Reading {
+        config,
+        problems,
+        lines,
+    }
+}
+
+fn top(table: Table<'_, '_>) -> Config {
+    let kinds = [("gear_train", true), ("housing", false)];
+    if table.choice("kind", None, &kinds) == Some(false) {
+        table.not_yet("kind", "kind = \"housing\"");
+    }
+    table.not_yet("housing", "an embedded housing");
+    let config = Config {
+        name: table.string("name"),
+        description: table.optional_string("description").unwrap_or_default(),
+        simulation: simulation(table.table("simulation")),
+        basis: basis(&table),
+        materials: table
+            .named_tables("material")
+            .into_iter()
+            .map(material)
+            .collect(),
+        rotors: table
+            .tables("rotor")
+            .into_iter()
+            .map(rotor::rotor)
+            .collect(),
+        meshes: table.tables("mesh").into_iter().map(mesh::mesh).collect(),
+        gearbox_vibration: gearbox_vibration(table.table("gearbox_vibration")),
+    };
+    table.finish();
+    config
+}
+
+fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
+    let defaults = Simulation {
+        start: Start::Equilibrium,
+        tolerance: 1e-4,
+        stop_time: 1.0,
+        step_size: 1e-5,
+    };
+    let Some(table) = table else { return defaults };
+    if table.choice(
+        "speed",
+        Some(true),
+        &[("prescribed", true), ("free", false)],
+    ) == Some(false)
+    {
+        table.not_yet("speed", "free spin");
+    }
+    if table.choice(
+        "solver",
+        Some(true),
+        &[("newmark", true), ("exponential", false)],
+    ) == Some(false)
+    {
+        table.not_yet("solver", "the exponential solver");
+    }
+    let starts = [("equilibrium", Start::Equilibrium), ("rest", Start::Rest)];
+    let simulation = Simulation {
+        start: table
+            .choice("start", Some(defaults.start), &starts)
+            .unwrap_or(defaults.start),
+        tolerance: table.number_or("tolerance", defaults.tolerance),
+        stop_time: table.number_or("stop_time", defaults.stop_time),
+        step_size: table.number_or("step_size", defaults.step_size),
+    };
+    table.finish();
+    simulation
+}
+
+fn basis(top: &Table<'_, '_>) -> Basis {
+    let Some(table) = top.table("basis") else {
+        top.problem(
+            "basis",
+            "missing; the default basis with static shapes is not available yet: give lateral_modes \
+             and torsional_modes, or max_frequency",
+        );
+        return Basis::MaxFrequency(f64::NAN);
+    };
+    if table.boolean_or("static_shapes", false) {
+        table.not_yet("static_shapes", "static_shapes = true");
+    }
+    let basis = if let Some(frequency) = table.optional_number("max_frequency") {
+        for key in ["lateral_modes", "torsional_modes"] {
+            if table.has(key) {
+                table.problem(key, "contradicts max_frequency; give one or the other");
+            }
+        }
+        Basis::MaxFrequency(frequency)
+    } else {
+        Basis::Counts {
+            lateral_modes: table.count("lateral_modes"),
+            torsional_modes: table.count("torsional_modes"),
+        }
+    };
+    table.finish();
+    basis
+}
+
+fn material((name, table): (String, Table<'_, '_>)) -> (String, Material) {
+    let material = Material {
+        youngs_modulus: table.number("youngs_modulus"),
+        poisson_ratio: table.number("poisson_ratio"),
+        density: table.number("density"),
+    };
+    table.finish();
+    (name, material)
+}
+
+fn gearbox_vibration(table: Option<Table<'_, '_>>) -> GearboxVibration {
+    let Some(table) = table else {
+        return GearboxVibration {
+            amplitude_x: 0.0,
+            amplitude_y: 0.0,
+            phase_y: 0.0,
+            frequency: 0.0,
+        };
+    };
+    let vibration = GearboxVibration {
+        amplitude_x: table.number_or("amplitude_x", 0.0),
+        amplitude_y: table.number_or("amplitude_y", 0.0),
+        phase_y: table.number_or("phase_y", 0.0),
+        frequency: table.number("frequency"),
+    };
+    table.finish();
+    vibration
+}

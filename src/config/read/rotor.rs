@@ -1,0 +1,157 @@
+//! `[[rotor]]` with everything on it.
+
+use super::super::document::Table;
+use super::super::{
+    BaseCircle, BasisSupport, Bearing, Disk, Gear, Planar, Probe, Rotor, Segment, Torque, Unbalance,
+};
+
+pub(super) fn rotor(table: Table<'_, '_>) -> Rotor {
+    table.not_yet("bow", "residual bow");
+    let rotor = Rotor {
+        name: table.string("name"),
+        speed: table.number("speed"),
+        angle: table.number_or("angle", 0.0),
+        max_element_length: table.optional_number("max_element_length"),
+        lateral_damping_ratio: table.number_or("lateral_damping_ratio", 0.0),
+        torsional_damping_ratio: table.number_or("torsional_damping_ratio", 0.0),
+        segments: each(&table, "segment", segment),
+        disks: each(&table, "disk", disk),
+        gears: each(&table, "gear", gear),
+        bearings: each(&table, "bearing", bearing),
+        unbalances: each(&table, "unbalance", unbalance),
+        torques: each(&table, "torque", torque),
+        basis_supports: each(&table, "basis_support", basis_support),
+        probes: each(&table, "probe", probe),
+    };
+    table.finish();
+    rotor
+}
+
+/// Reads every table `[[key]]` with `item` and closes it.
+fn each<T>(table: &Table<'_, '_>, key: &'static str, item: fn(&Table<'_, '_>) -> T) -> Vec<T> {
+    let read_one = |inner: Table<'_, '_>| {
+        let value = item(&inner);
+        inner.finish();
+        value
+    };
+    table.tables(key).into_iter().map(read_one).collect()
+}
+
+fn segment(table: &Table<'_, '_>) -> Segment {
+    Segment {
+        length: table.number("length"),
+        outer_diameter: table.number("outer_diameter"),
+        inner_diameter: table.number_or("inner_diameter", 0.0),
+        material: table
+            .optional_string("material")
+            .unwrap_or_else(|| "default".to_string()),
+    }
+}
+
+fn disk(table: &Table<'_, '_>) -> Disk {
+    Disk {
+        position: table.number("position"),
+        mass: table.number("mass"),
+        polar_inertia: table.number("polar_inertia"),
+        diametral_inertia: table.number("diametral_inertia"),
+    }
+}
+
+fn gear(table: &Table<'_, '_>) -> Gear {
+    let teeth = table.count("teeth");
+    Gear {
+        name: table.string("name"),
+        body: disk(table),
+        teeth: u32::try_from(teeth).unwrap_or(u32::MAX),
+        base: base_circle(table),
+    }
+}
+
+fn base_circle(table: &Table<'_, '_>) -> BaseCircle {
+    let radius = table.optional_number("base_radius");
+    let module = table.optional_number("module");
+    let pressure_angle = table.optional_number("pressure_angle");
+    match (radius, module, pressure_angle) {
+        (Some(radius), None, None) => BaseCircle::Radius(radius),
+        (None, Some(module), Some(pressure_angle)) => BaseCircle::Rack {
+            module,
+            pressure_angle,
+        },
+        (None, None, None) => {
+            let message = "missing; give base_radius, or module and pressure_angle";
+            table.problem("base_radius", message);
+            BaseCircle::Radius(f64::NAN)
+        }
+        _ => {
+            let message = "give either base_radius alone, or module and pressure_angle together";
+            table.problem("base_radius", message);
+            BaseCircle::Radius(f64::NAN)
+        }
+    }
+}
+
+fn bearing(table: &Table<'_, '_>) -> Bearing {
+    Bearing {
+        name: table.string("name"),
+        position: table.number("position"),
+        stiffness: planar(table, "stiffness"),
+        damping: planar(table, "damping"),
+    }
+}
+
+/// yy defaults to xx, cross terms to zero; damping may be absent altogether.
+fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
+    let Some(table) = bearing.table(key) else {
+        if key == "stiffness" && !bearing.has(key) {
+            bearing.problem(key, "missing");
+        }
+        return Planar {
+            xx: 0.0,
+            xy: 0.0,
+            yx: 0.0,
+            yy: 0.0,
+        };
+    };
+    let xx = table.number("xx");
+    let planar = Planar {
+        xx,
+        xy: table.number_or("xy", 0.0),
+        yx: table.number_or("yx", 0.0),
+        yy: table.number_or("yy", xx),
+    };
+    table.finish();
+    planar
+}
+
+fn unbalance(table: &Table<'_, '_>) -> Unbalance {
+    Unbalance {
+        name: table.string("name"),
+        position: table.number("position"),
+        moment: table.number("moment"),
+        phase: table.number_or("phase", 0.0),
+    }
+}
+
+fn torque(table: &Table<'_, '_>) -> Torque {
+    Torque {
+        name: table.string("name"),
+        position: table.number("position"),
+        value: table.number_or("value", 0.0),
+        slope: table.number_or("slope", 0.0),
+    }
+}
+
+fn basis_support(table: &Table<'_, '_>) -> BasisSupport {
+    BasisSupport {
+        position: table.number("position"),
+        lateral: table.number_or("lateral", 0.0),
+        torsional: table.number_or("torsional", 0.0),
+    }
+}
+
+fn probe(table: &Table<'_, '_>) -> Probe {
+    Probe {
+        name: table.string("name"),
+        position: table.number("position"),
+    }
+}

@@ -1,0 +1,156 @@
+//! The rows of parameters.
+
+use super::super::parameter::{Parameter, PlanarEntry, VibrationEntry};
+use super::super::{Quantity, Unit};
+use super::Table;
+use crate::train::{GearTrain, Rotor, speed_ratios};
+
+impl Table<'_> {
+    pub(super) fn parameters(&mut self, train: &GearTrain) {
+        let ratios = speed_ratios(train);
+        for (index, rotor) in train.rotors.iter().enumerate() {
+            let name = format!("{}.mean_speed", rotor.name);
+            if ratios[index].leader == index {
+                let text = format!("Mean speed of {}; rotors meshed with it follow", rotor.name);
+                self.parameter(
+                    name,
+                    Unit::RadianPerSecond,
+                    Parameter::MeanSpeed { rotor: index },
+                    text,
+                );
+            } else {
+                let leader = &train.rotors[ratios[index].leader].name;
+                let text = format!(
+                    "Mean speed of {}, follows from {leader}.mean_speed",
+                    rotor.name
+                );
+                self.row(
+                    name,
+                    Unit::RadianPerSecond,
+                    Quantity::DerivedSpeed { rotor: index },
+                    text,
+                );
+            }
+            self.rotor_parameters(index, rotor);
+        }
+        for (index, mesh) in train.meshes.iter().enumerate() {
+            let parameter = Parameter::StiffnessFactor { mesh: index };
+            let text = format!("Factor on the stiffness of mesh {}", mesh.name);
+            self.parameter(
+                format!("{}.stiffness_factor", mesh.name),
+                Unit::One,
+                parameter,
+                text,
+            );
+        }
+        let vibration = [
+            (
+                "amplitude_x",
+                Unit::Meter,
+                VibrationEntry::AmplitudeX,
+                "Amplitude in x",
+            ),
+            (
+                "amplitude_y",
+                Unit::Meter,
+                VibrationEntry::AmplitudeY,
+                "Amplitude in y",
+            ),
+            (
+                "phase_y",
+                Unit::Radian,
+                VibrationEntry::PhaseY,
+                "Phase of y ahead of x",
+            ),
+            (
+                "frequency",
+                Unit::Hertz,
+                VibrationEntry::Frequency,
+                "Frequency",
+            ),
+        ];
+        for (name, unit, entry, what) in vibration {
+            let text = format!(
+                "{what} of a sinusoidal motion of all bearing supports, added to the inputs"
+            );
+            self.parameter(
+                format!("gearbox_vibration.{name}"),
+                unit,
+                Parameter::Vibration(entry),
+                text,
+            );
+        }
+        self.parameter(
+            "simulation.tolerance".to_string(),
+            Unit::One,
+            Parameter::Tolerance,
+            "Bound on the RMS error of every mesh force relative to its RMS".to_string(),
+        );
+    }
+
+    fn rotor_parameters(&mut self, index: usize, rotor: &Rotor) {
+        let shaft = &rotor.name;
+        let ratios = [
+            ("lateral", Parameter::LateralDampingRatio { rotor: index }),
+            (
+                "torsional",
+                Parameter::TorsionalDampingRatio { rotor: index },
+            ),
+        ];
+        for (kind, parameter) in ratios {
+            let text = format!("Modal damping ratio of the elastic {kind} modes of {shaft}");
+            self.parameter(
+                format!("{shaft}.{kind}_damping_ratio"),
+                Unit::One,
+                parameter,
+                text,
+            );
+        }
+        for (bearing, data) in rotor.bearings.iter().enumerate() {
+            let place = format!("bearing {} of {shaft}", data.name);
+            for (letters, entry) in PlanarEntry::NAMED {
+                let parameter = Parameter::BearingStiffness {
+                    rotor: index,
+                    bearing,
+                    entry,
+                };
+                let name = format!("{shaft}.{}.stiffness.{letters}", data.name);
+                let text = format!("Stiffness {letters} of {place}");
+                self.parameter(name, Unit::NewtonPerMeter, parameter, text);
+            }
+            for (letters, entry) in PlanarEntry::NAMED {
+                let parameter = Parameter::BearingDamping {
+                    rotor: index,
+                    bearing,
+                    entry,
+                };
+                let name = format!("{shaft}.{}.damping.{letters}", data.name);
+                let text = format!("Damping {letters} of {place}");
+                self.parameter(name, Unit::NewtonSecondPerMeter, parameter, text);
+            }
+        }
+        for (unbalance, data) in rotor.unbalances.iter().enumerate() {
+            let (prefix, place) = (
+                format!("{shaft}.{}", data.name),
+                format!("unbalance {} of {shaft}", data.name),
+            );
+            let parameter = Parameter::UnbalanceMoment {
+                rotor: index,
+                unbalance,
+            };
+            let text = format!("Mass times eccentricity of {place}");
+            self.parameter(
+                format!("{prefix}.moment"),
+                Unit::KilogramMeter,
+                parameter,
+                text,
+            );
+            let parameter = Parameter::UnbalancePhase {
+                rotor: index,
+                unbalance,
+            };
+            let text = format!("Direction of {place} relative to the rotation angle");
+            self.parameter(format!("{prefix}.phase"), Unit::Radian, parameter, text);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The model as it was packed, and as it becomes with other parameters.
+
+use super::Error;
+use crate::config::{Config, Problem};
+use crate::interface::{Interface, Variable};
+use crate::model::ModalModel;
+use crate::rotor::ModeCounts;
+use crate::train::{SpeedRatio, speed_ratios, validate};
+
+/// What never changes: the model as it was packed.
+#[derive(Debug, Clone)]
+pub(super) struct Design {
+    pub(super) config: Config,
+    pub(super) interface: Interface,
+    pub(super) guid: String,
+    /// Kept when parameters change, because the variables of the modes are fixed.
+    pub(super) mode_counts: Vec<ModeCounts>,
+    pub(super) ratios: Vec<SpeedRatio>,
+    pub(super) torques: Vec<f64>,
+    pub(super) bearings: usize,
+    pub(super) model: ModalModel,
+}
+
+impl Design {
+    pub(super) fn of(config: Config) -> Result<Design, Error> {
+        let (train, _) = validate(&config).map_err(|problems| joined(&problems))?;
+        let model =
+            ModalModel::assemble(&train, None).map_err(|error| Error::new(error.to_string()))?;
+        let interface = Interface::of(&config, &train, &model);
+        Ok(Design {
+            guid: interface.fingerprint(&config),
+            mode_counts: model.counts(),
+            ratios: speed_ratios(&train),
+            torques: train
+                .rotors
+                .iter()
+                .flat_map(|rotor| &rotor.torques)
+                .map(|torque| torque.value)
+                .collect(),
+            bearings: model.bearings().count(),
+            interface,
+            config,
+            model,
+        })
+    }
+
+    pub(super) fn variable(&self, reference: u32) -> Result<&Variable, Error> {
+        let index = usize::try_from(reference).unwrap_or(usize::MAX);
+        self.interface.variables.get(index).ok_or_else(|| {
+            Error::new(format!(
+                "value reference {reference} is unknown to this FMU"
+            ))
+        })
+    }
+
+    /// The model under these parameters; the packed one when nothing that it depends on was changed.
+    pub(super) fn assemble(&self, config: &Config) -> Result<ModalModel, Error> {
+        let (train, _) = validate(config).map_err(|problems| joined(&problems))?;
+        let mut comparable = config.clone();
+        comparable.simulation.clone_from(&self.config.simulation);
+        if comparable == self.config {
+            return Ok(self.model.clone());
+        }
+        ModalModel::assemble(&train, Some(&self.mode_counts))
+            .map_err(|error| Error::new(error.to_string()))
+    }
+}
+
+fn joined(problems: &[Problem]) -> Error {
+    let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    Error::new(format!("the model is not valid: {}", sentences.join("; ")))
+}

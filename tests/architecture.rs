@@ -120,6 +120,8 @@ fn the_library_reads_no_clock_no_files_and_no_environment() {
             "std::process",
             "HashMap",
             "rand::",
+            "thread::current",
+            "thread::spawn",
         ] {
             assert!(
                 !code.contains(absent),

@@ -23,9 +23,10 @@ pub struct Modes {
 /// ```
 ///
 /// The inverse form gives the lowest frequencies the full precision that the direct form gives the
-/// highest. The shift s = min K_ii / M_ii / n^2 is of the order of the lowest elastic w^2 of a shaft, so
-/// that rigid-body modes are regular too; w^2 below 1e-9 s counts as 0. Modes with more than 1e13 times the w^2 of the lowest one are left out: they are noise.
-/// `None` when K or M is not what is asked for.
+/// highest. The shift s makes rigid-body modes regular; it is first min K_ii / M_ii / n^2, the order of the
+/// lowest elastic w^2 of a shaft, and then the lowest w^2 found, should that be far below (soft bearings).
+/// w^2 below 1e-9 s counts as 0. Modes with more than 1e13 times the w^2 of the lowest one are left out: they
+/// are noise. `None` when K or M is not what is asked for.
 pub fn natural_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Modes> {
     let n = mass.nrows();
     let stiffest = |i: usize| stiffness[(i, i)] / mass[(i, i)];
@@ -34,6 +35,19 @@ pub fn natural_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Mo
     if !shift.is_finite() || !mass.iter().all(|value| value.is_finite()) {
         return None;
     }
+    let modes = modes_with_shift(stiffness, mass, shift)?;
+    match modes
+        .squared_frequencies
+        .iter()
+        .find(|&&squared| squared > 0.0)
+    {
+        Some(&lowest) if lowest < 1e-3 * shift => modes_with_shift(stiffness, mass, lowest),
+        _ => Some(modes),
+    }
+}
+
+fn modes_with_shift(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, shift: f64) -> Option<Modes> {
+    let n = mass.nrows();
     let factor = (stiffness + mass * shift).cholesky()?.unpack();
     let left = factor.solve_lower_triangular(mass)?; // L^-1 M
     let mut compliance = factor.solve_lower_triangular(&left.transpose())?; // L^-1 M L^-T
@@ -212,6 +226,19 @@ mod tests {
         let mut flat = DMatrix::from_element(2, 2, 1.0);
         assert!(!invert_in_place(&mut flat.clone(), &mut [0; 2]));
         assert!(!solve_in_place(&mut flat, &mut [1.0, 2.0]));
+    }
+
+    #[test]
+    fn softly_held_bodies_keep_their_frequency_beside_stiff_ones() {
+        // Two unit masses on a spring of 1e8 N/m, each held by 1 N/m: 1 and sqrt(1 + 2e8) rad/s.
+        let stiffness = DMatrix::from_row_slice(2, 2, &[1e8 + 1.0, -1e8, -1e8, 1e8 + 1.0]);
+        let modes = natural_modes(&stiffness, &DMatrix::identity(2, 2)).unwrap();
+        // 1e-7: the entries carry 1e-8 of the soft spring.
+        assert!(
+            (modes.squared_frequencies[0] - 1.0).abs() < 1e-7,
+            "{:?}",
+            modes.squared_frequencies
+        );
     }
 
     #[test]

@@ -123,13 +123,7 @@ fn meshes(html: &mut Xml, train: &GearTrain, model: &ModalModel) -> io::Result<(
     ];
     table(html, &head, |html| {
         for (mesh, modal) in train.meshes.iter().zip(&model.meshes) {
-            let [a, b] = mesh.gears.map(|gear| {
-                format!(
-                    "{}.{}",
-                    train.rotors[gear.rotor].name,
-                    train.gear(gear).name
-                )
-            });
+            let [a, b] = mesh.gears.map(|gear| train.gear_name(gear));
             let cells = [
                 mesh.name.clone(),
                 a,

@@ -153,6 +153,15 @@ impl Rotor {
 }
 
 impl GearTrain {
+    /// The name of a gear as model files write it: `rotor.gear`.
+    pub fn gear_name(&self, address: GearAddress) -> String {
+        format!(
+            "{}.{}",
+            self.rotors[address.rotor].name,
+            self.gear(address).name
+        )
+    }
+
     /// The gear at an address.
     pub fn gear(&self, address: GearAddress) -> &Gear {
         &self.rotors[address.rotor].gears[address.gear]

@@ -69,13 +69,7 @@ fn print_meshes(train: &GearTrain, model: &ModalModel) {
         "mesh", "gear a", "gear b", "f_mesh [Hz]", "k_mean [N/m]", "c [N s/m]"
     );
     for (mesh, modal) in train.meshes.iter().zip(&model.meshes) {
-        let [a, b] = mesh.gears.map(|gear| {
-            format!(
-                "{}.{}",
-                train.rotors[gear.rotor].name,
-                train.gear(gear).name
-            )
-        });
+        let [a, b] = mesh.gears.map(|gear| train.gear_name(gear));
         println!(
             "  {:<12} {a:<18} {b:<18} {:>12.3} {:>16.6e} {:>14.2}",
             mesh.name,

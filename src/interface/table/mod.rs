@@ -144,8 +144,7 @@ impl Table<'_> {
                 "Normal force of mesh {name} along the line of action, compression positive"
             );
             self.row(format!("{name}.force"), Unit::Newton, force, text);
-            let b = mesh.gears[1];
-            let gear_b = format!("{}.{}", train.rotors[b.rotor].name, train.gear(b).name);
+            let gear_b = train.gear_name(mesh.gears[1]);
             for (axis, letter) in AXES.into_iter().enumerate() {
                 let quantity = Quantity::MeshForceOnB { mesh: index, axis };
                 let text = format!("Force of mesh {name} on gear {gear_b} in {letter}");

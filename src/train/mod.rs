@@ -75,8 +75,6 @@ pub struct Rotor {
 /// A cylindrical shaft section between two positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Left end [m].
-    pub start: f64,
     /// Right end [m].
     pub end: f64,
     /// Outer diameter [m].

@@ -125,7 +125,6 @@ fn resolve_sections(
         let end = start + segment.length;
         let material = material.copied().unwrap_or(nothing);
         sections.push(Section {
-            start,
             end,
             outer_diameter: outer,
             inner_diameter: inner,

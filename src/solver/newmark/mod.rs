@@ -82,7 +82,8 @@ impl Newmark {
         }
     }
 
-    /// Advances the state to exactly `until`. After an error the state is the one before the call.
+    /// Advances the state to exactly `until`; a time that is not ahead changes nothing. After an error the
+    /// state is the one before the call.
     pub fn advance_to(
         &mut self,
         system: &System,
@@ -91,6 +92,9 @@ impl Newmark {
         until: f64,
         tolerance: f64,
     ) -> Result<(), StepError> {
+        if until <= state.time {
+            return Ok(());
+        }
         self.before.copy_from(state);
         let result = self.advance(system, forcing, state, until, tolerance);
         if result.is_err() {

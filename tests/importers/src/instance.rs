@@ -32,9 +32,9 @@ pub trait BaseType {
     type Value: Copy;
     /// Any value.
     const SOME: Self::Value;
-    /// fmi2GetXXX
+    /// fmi2GetReal or its sibling for this type.
     fn getter(functions: &Functions) -> Get<Self::Value>;
-    /// fmi2SetXXX
+    /// fmi2SetReal or its sibling for this type.
     fn setter(functions: &Functions) -> Set<Self::Value>;
 }
 
@@ -191,7 +191,7 @@ impl<'h> Instance<'h> {
         self.values(&[self.host.fmu().reference(name)])[0]
     }
 
-    /// fmi2GetXXX with arrays as they are; `None` is NULL.
+    /// The getter with arrays as they are; `None` is NULL.
     pub fn get_array<T: BaseType>(
         &self,
         references: Option<&[ValueReference]>,
@@ -206,7 +206,7 @@ impl<'h> Instance<'h> {
         unsafe { T::getter(self.functions())(self.component, references, count, values) }
     }
 
-    /// fmi2SetXXX with arrays as they are; `None` is NULL.
+    /// The setter with arrays as they are; `None` is NULL.
     pub fn set_array<T: BaseType>(
         &self,
         references: Option<&[ValueReference]>,

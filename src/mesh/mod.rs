@@ -13,6 +13,7 @@
 //! teeth together. Knows two gears and the line of action between them; knows nothing of shafts, modes
 //! or time. The printed forms of (4) to (6) differ from these; see `docs/errata.md`.
 
+mod gauss;
 mod stiffness;
 
 pub use stiffness::{StiffnessLaw, ToothPair};

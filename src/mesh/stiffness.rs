@@ -13,6 +13,8 @@
 //!
 //! Knows no gears and no time.
 
+use super::gauss::integral;
+
 /// k over the phase.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StiffnessLaw {
@@ -83,6 +85,7 @@ impl StiffnessLaw {
             // The mean over a pitch of the sum over the pairs is the integral over one pair's contact.
             mean: [[0.0, ramp], [ramp, eps - ramp], [eps - ramp, eps]]
                 .iter()
+                // Five points are exact: one pair's stiffness is a polynomial of degree 9.
                 .map(|&[from, to]| integral(|x| law.one_pair(x), from, to))
                 .sum(),
         }
@@ -188,24 +191,6 @@ fn ascending<const N: usize>(points: [f64; N]) -> Vec<f64> {
         starts.pop();
     }
     starts
-}
-
-/// Five-point Gauss rule: exact for polynomials of degree 9, the degree of one pair's stiffness.
-fn integral(function: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
-    let root = 2.0 * (10.0_f64 / 7.0).sqrt();
-    let inner = (
-        (5.0 - root).sqrt() / 3.0,
-        (322.0 + 13.0 * 70.0_f64.sqrt()) / 900.0,
-    );
-    let outer = (
-        (5.0 + root).sqrt() / 3.0,
-        (322.0 - 13.0 * 70.0_f64.sqrt()) / 900.0,
-    );
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let pair = |(node, weight): (f64, f64)| {
-        weight * (function(middle - half * node) + function(middle + half * node))
-    };
-    half * (128.0 / 225.0 * function(middle) + pair(inner) + pair(outer))
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 //! keys exist, their types and their defaults. Keys and defaults: `docs/model-file.md`.
 
 mod document;
+mod mesh;
 mod place;
 mod read;
 
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use document::Lines;
+pub use mesh::{Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Reading, read};
 
@@ -248,90 +250,6 @@ pub struct Probe {
     pub position: f64,
 }
 
-/// `[[mesh]]`: two gears in contact.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Mesh {
-    /// Unique identifier.
-    pub name: String,
-    /// The gears a and b as `rotor.gear`.
-    pub gears: [String; 2],
-    /// Direction psi from the centre of a to the centre of b [rad].
-    pub center_angle: f64,
-    /// Operating pressure angle [rad]. (0, pi/2)
-    pub pressure_angle: f64,
-    /// Sign of the torque that drives a through the mesh.
-    pub flank: Flank,
-    /// Mesh phase p0 at zero rotation angle, in tooth pitches; absent: 0, where geometry leaves it free.
-    pub phase: Option<f64>,
-    /// Damping of the tooth contact.
-    pub damping: MeshDamping,
-    /// Which motions the mesh torque follows.
-    pub torque_coupling: TorqueCoupling,
-    /// Stiffness over the mesh phase.
-    pub stiffness: MeshStiffness,
-    /// Scales the stiffness law.
-    pub stiffness_factor: f64,
-}
-
-/// The flank that carries the load: the sign s of the torque that drives gear a through the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Flank {
-    /// s = +1.
-    Positive,
-    /// s = -1.
-    Negative,
-}
-
-/// Damping of the tooth contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum MeshDamping {
-    /// Fraction zeta of the critical damping of the gear pair alone. >= 0
-    Ratio(f64),
-    /// Coefficient c [N s/m]. >= 0
-    Coefficient(f64),
-}
-
-/// Which motions the mesh torque follows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TorqueCoupling {
-    /// The same tooth deflection as the forces: one potential, action = reaction.
-    Consistent,
-    /// Equation (6) of the paper taken literally: rotations only. For comparison with the paper.
-    AsPrinted,
-}
-
-/// `[mesh.stiffness]`: stiffness over the mesh phase, one tooth pitch being one period.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum MeshStiffness {
-    /// The same at every phase.
-    Constant {
-        /// Stiffness [N/m]. > 0
-        mean: f64,
-    },
-    /// Steps between the numbers of tooth pairs in contact.
-    Rectangular {
-        /// Stiffness with floor(contact ratio) pairs [N/m]. > 0
-        fewer_pairs: f64,
-        /// Stiffness with one pair more [N/m]. >= that
-        more_pairs: f64,
-        /// Mean number of tooth pairs in contact. >= 1
-        contact_ratio: f64,
-    },
-    /// Sum over the engaged pairs of a polynomial with smooth ends.
-    ToothPair {
-        /// Stiffness of one pair at mid contact [N/m]. > 0
-        pair: f64,
-        /// Relative loss at the ends of contact, quadratic term.
-        quadratic: f64,
-        /// Relative loss at the ends of contact, quartic term.
-        quartic: f64,
-        /// Length over which a pair takes and leaves its load, in pitches. >= 0
-        ramp: f64,
-        /// Mean number of tooth pairs in contact. >= 1
-        contact_ratio: f64,
-    },
-}
-
 /// `[gearbox_vibration]`: sinusoidal motion of all bearing supports.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GearboxVibration {
@@ -364,16 +282,6 @@ impl Planar {
     /// The coefficients as rows: `[[xx, xy], [yx, yy]]`.
     pub fn rows(&self) -> [[f64; 2]; 2] {
         [[self.xx, self.xy], [self.yx, self.yy]]
-    }
-}
-
-impl Flank {
-    /// The sign s.
-    pub fn sign(self) -> f64 {
-        match self {
-            Flank::Positive => 1.0,
-            Flank::Negative => -1.0,
-        }
     }
 }
 

@@ -291,11 +291,6 @@ fn keys_of_later_versions_say_so() {
             "unilateral",
         ),
         ("flank = 1", "flank = 1\ninternal = true", "internal"),
-        (
-            "law = \"tooth_pair\"",
-            "law = \"fourier\"\nmean = 1.0\ncosine = [0.1]\nsine = [0.0]",
-            "law",
-        ),
     ];
     let text = three_stage();
     for (from, to, word) in later {

@@ -115,18 +115,33 @@ impl<'d, 't> Table<'d, 't> {
     /// A number that may be absent; NaN stands in for a value of another type.
     pub(super) fn optional_number(&self, key: &'static str) -> Option<f64> {
         let value = self.value(key)?;
-        let number = match value {
-            DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::Integer(_) => integer(value).map(|whole| whole as f64),
-            _ => None,
-        };
         let rule = match value {
             DeValue::String(_) => {
                 "must be a plain number in SI units (strings with units are not available yet)"
             }
             _ => "must be a number",
         };
-        Some(number.unwrap_or_else(|| self.wrong_type(key, rule, value, f64::NAN)))
+        Some(number(value).unwrap_or_else(|| self.wrong_type(key, rule, value, f64::NAN)))
+    }
+
+    /// A list of numbers that must be present; it is empty when it is not one.
+    pub(super) fn numbers(&self, key: &'static str) -> Vec<f64> {
+        self.optional_numbers(key)
+            .unwrap_or_else(|| self.missing(key, Vec::new()))
+    }
+
+    /// A list of numbers that may be absent.
+    pub(super) fn optional_numbers(&self, key: &'static str) -> Option<Vec<f64>> {
+        let value = self.value(key)?;
+        let Some(array) = value.as_array() else {
+            return self.wrong_type(key, "must be a list of numbers", value, Some(Vec::new()));
+        };
+        let one = |item: &Spanned<DeValue<'_>>| {
+            let rule = "must be a list of numbers only";
+            number(item.get_ref())
+                .unwrap_or_else(|| self.wrong_type(key, rule, item.get_ref(), f64::NAN))
+        };
+        Some(array.iter().map(one).collect())
     }
 
     /// A whole number >= 0 that must be present; 0 stands in when it is not.
@@ -354,6 +369,13 @@ impl<'d, 't> Table<'d, 't> {
             }
         }
         plain
+    }
+}
+
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        _ => integer(value).map(|whole| whole as f64),
     }
 }
 

@@ -10,22 +10,40 @@
 //!
 //! psi is the direction from the centre of a to that of b, p the operating pressure angle, R the base
 //! radii, s the flank: the sign of the torque that drives a through the mesh. delta > 0 presses the
-//! teeth together. Knows two gears and the line of action between them; knows nothing of shafts, modes
+//! teeth together. Where b is a ring around a (internal gears), the teeth meet on the side of a that faces
+//! away from the centre of b, and both turn the same way:
+//!
+//! ```text
+//!   n = s z x p' cos p + p' sin p,   p' = -(cos psi, sin psi)       psi + pi in the formula above
+//!   theta_b enters with -R_b                                       R_b < 0 in the formulas above
+//! ```
+//!
+//! Knows two gears and the line of action between them; knows nothing of shafts, modes
 //! or time. The printed forms of (4) to (6) differ from these; see `docs/errata.md`.
 
+mod fourier;
 mod gauss;
 mod stiffness;
+mod table;
+mod tooth_pair;
+mod transmission_error;
 
-pub use stiffness::{StiffnessLaw, ToothPair};
+pub use stiffness::StiffnessLaw;
+pub use tooth_pair::ToothPair;
+pub use transmission_error::{ErrorHarmonic, TransmissionError};
+
+use core::f64::consts::{FRAC_PI_2, PI};
 
 /// The line of action between gear a and gear b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineOfAction {
     /// Unit normal n from a to b.
     pub normal: [f64; 2],
+    /// Unit vector from the centre of a to that of b.
+    pub center_line: [f64; 2],
     /// Base radius R_a [m].
     pub radius_a: f64,
-    /// Base radius R_b [m].
+    /// Base radius R_b [m], negative where b is a ring.
     pub radius_b: f64,
     /// Flank sign s.
     pub flank: f64,
@@ -62,12 +80,38 @@ impl LineOfAction {
         radius_a: f64,
         radius_b: f64,
     ) -> Self {
-        let alpha = psi + flank * (core::f64::consts::FRAC_PI_2 - pressure_angle);
+        let alpha = psi + flank * (FRAC_PI_2 - pressure_angle);
         LineOfAction {
             normal: [libm::cos(alpha), libm::sin(alpha)],
+            center_line: [libm::cos(psi), libm::sin(psi)],
             radius_a,
             radius_b,
             flank,
+        }
+    }
+
+    /// A gear a inside a ring b; as [`LineOfAction::external`], the radius of the ring is given positive.
+    pub fn internal(
+        psi: f64,
+        pressure_angle: f64,
+        flank: f64,
+        radius_a: f64,
+        radius_b: f64,
+    ) -> Self {
+        LineOfAction {
+            center_line: [libm::cos(psi), libm::sin(psi)],
+            ..LineOfAction::external(psi + PI, pressure_angle, flank, radius_a, -radius_b)
+        }
+    }
+
+    /// The line on which the backs of the same teeth would touch: -s, n mirrored at the centre line.
+    pub fn opposite_flank(&self) -> Self {
+        let ([x, y], [along_x, along_y]) = (self.normal, self.center_line);
+        let twice = 2.0 * (x * along_x + y * along_y);
+        LineOfAction {
+            normal: [twice * along_x - x, twice * along_y - y],
+            flank: -self.flank,
+            ..*self
         }
     }
 
@@ -122,35 +166,97 @@ pub fn pair_damping(ratio: f64, mean_stiffness: f64, gears: [(f64, f64); 2]) -> 
 
 #[cfg(test)]
 mod tests {
-    use core::f64::consts::PI;
-
     use super::*;
 
-    fn pairs() -> Vec<LineOfAction> {
+    const PSI: [f64; 4] = [0.0, 0.7, 2.5, -1.9];
+    const PRESSURE_ANGLE: f64 = 0.35;
+
+    /// External and internal pairs on both flanks, each with its psi.
+    fn pairs() -> Vec<(LineOfAction, f64)> {
         let mut pairs = Vec::new();
         for flank in [1.0, -1.0] {
-            for psi in [0.0, 0.7, 2.5, -1.9] {
-                pairs.push(LineOfAction::external(psi, 0.35, flank, 0.11, 0.27));
+            for psi in PSI {
+                for kind in [LineOfAction::external, LineOfAction::internal] {
+                    pairs.push((kind(psi, PRESSURE_ANGLE, flank, 0.11, 0.27), psi));
+                }
             }
         }
         pairs
     }
 
-    /// Centre of gear b when a is at the origin and the pressure angle is 0.35.
-    fn centre_of_b(psi: f64) -> [f64; 2] {
-        let distance = (0.11 + 0.27) / libm::cos(0.35);
+    /// Centre of gear b when a is at the origin: (R_a + R_b) / cos p away, (R_b - R_a) / cos p in a ring.
+    fn centre_of_b(pair: &LineOfAction, psi: f64) -> [f64; 2] {
+        let distance = (pair.radius_a + pair.radius_b).abs() / libm::cos(PRESSURE_ANGLE);
         [distance * libm::cos(psi), distance * libm::sin(psi)]
     }
 
     #[test]
     fn forces_balance_and_the_moment_about_any_point_vanishes() {
-        for (pair, psi) in pairs().iter().zip([0.0, 0.7, 2.5, -1.9].iter().cycle()) {
-            let [a, b] = pair.loads(1000.0);
-            assert_eq!((a.x + b.x, a.y + b.y), (0.0, 0.0));
-            let centre = centre_of_b(*psi);
-            let moment = a.torque + b.torque + centre[0] * b.y - centre[1] * b.x;
-            // 1e-12 of the torques: rounding.
-            assert!(moment.abs() < 1e-12 * b.torque.abs(), "moment {moment}");
+        for (pair, psi) in pairs() {
+            for pair in [pair, pair.opposite_flank()] {
+                let [a, b] = pair.loads(1000.0);
+                assert_eq!((a.x + b.x, a.y + b.y), (0.0, 0.0));
+                let centre = centre_of_b(&pair, psi);
+                let moment = a.torque + b.torque + centre[0] * b.y - centre[1] * b.x;
+                // 1e-12 of the torques: rounding.
+                assert!(moment.abs() < 1e-12 * b.torque.abs(), "moment {moment}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_normal_is_that_of_the_equations() {
+        // n = s z x p' cos p + p' sin p, p' from a's centre to the pitch point (equations.md, section 3).
+        let (sine, cosine) = libm::sincos(PRESSURE_ANGLE);
+        for (pair, psi) in pairs() {
+            let side = pair.radius_b.signum(); // a ring is touched on the far side
+            let to_pitch_point = [side * libm::cos(psi), side * libm::sin(psi)];
+            let across = [-to_pitch_point[1], to_pitch_point[0]];
+            for axis in 0..2 {
+                let expected = pair.flank * across[axis] * cosine + to_pitch_point[axis] * sine;
+                assert!((pair.normal[axis] - expected).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn the_opposite_flank_is_the_one_built_with_the_other_sign() {
+        for (pair, psi) in pairs() {
+            let ring = pair.radius_b < 0.0;
+            let kind = if ring {
+                LineOfAction::internal
+            } else {
+                LineOfAction::external
+            };
+            let built = kind(psi, PRESSURE_ANGLE, -pair.flank, 0.11, 0.27);
+            let found = pair.opposite_flank();
+            for axis in 0..2 {
+                assert!(
+                    (found.normal[axis] - built.normal[axis]).abs() < 1e-15,
+                    "rounding"
+                );
+            }
+            assert_eq!(
+                LineOfAction {
+                    normal: built.normal,
+                    ..found
+                },
+                built
+            );
+        }
+    }
+
+    #[test]
+    fn rotation_at_the_speed_ratio_presses_nothing() {
+        // z_a = 11, z_b = 27: Om_b = -Om_a 11/27 outside, +Om_a 11/27 in a ring.
+        for (pair, _) in pairs() {
+            let turn = |theta: f64| GearMotion {
+                theta,
+                ..GearMotion::default()
+            };
+            let ratio = -11.0 / (27.0 * pair.radius_b.signum());
+            let deflection = pair.deflection(&turn(1.0), &turn(ratio));
+            assert!(deflection.abs() < 1e-15, "{deflection}: rounding");
         }
     }
 
@@ -179,7 +285,7 @@ mod tests {
 
     #[test]
     fn the_driving_torque_on_a_has_the_sign_of_the_flank() {
-        for pair in pairs() {
+        for (pair, _) in pairs() {
             let [a, _] = pair.loads(1.0);
             assert_eq!(a.torque.signum(), -pair.flank); // the mesh resists what drives
         }
@@ -200,7 +306,7 @@ mod tests {
                 theta: -3.0,
             },
         );
-        for pair in pairs() {
+        for (pair, _) in pairs() {
             let [a, b] = pair.loads(7.0);
             let power = a.x * va.x
                 + a.y * va.y

@@ -9,11 +9,15 @@
 //!   rectangular   floor(eps) + 1 pairs for frac(phase) < frac(eps), else floor(eps)
 //!   tooth_pair    k = sum over the pairs of pair (1 - quadratic xi^2 - quartic xi^4) r(u)
 //!                 xi = 2 x / eps - 1,  u = clamp(min(x, eps - x) / ramp, 0, 1),  r = u^3 (10 - 15 u + 6 u^2)
+//!   fourier       k = mean (1 + sum over i of c_i cos(2 pi i phase) + s_i sin(2 pi i phase))
+//!   table         linear between points, periodic; at a jump the value after it holds
 //! ```
 //!
 //! Knows no gears and no time.
 
-use super::gauss::integral;
+use super::fourier::FourierSeries;
+use super::table::Table;
+use super::tooth_pair::ToothPair;
 
 /// k over the phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +28,7 @@ pub struct StiffnessLaw {
     mean: f64,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Shape {
     Constant {
         value: f64,
@@ -35,21 +39,11 @@ enum Shape {
         split: f64,
     },
     ToothPair(ToothPair),
-}
-
-/// Parameters of the law `tooth_pair`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ToothPair {
-    /// Stiffness of one pair at mid contact [N/m].
-    pub pair: f64,
-    /// Relative loss at the ends of contact, quadratic term.
-    pub quadratic: f64,
-    /// Relative loss at the ends of contact, quartic term.
-    pub quartic: f64,
-    /// Length over which a pair takes and leaves its load [pitches].
-    pub ramp: f64,
-    /// Mean number of tooth pairs in contact eps.
-    pub contact_ratio: f64,
+    Fourier {
+        mean: f64,
+        series: FourierSeries,
+    },
+    Table(Table),
 }
 
 impl StiffnessLaw {
@@ -82,13 +76,36 @@ impl StiffnessLaw {
         StiffnessLaw {
             shape: Shape::ToothPair(law),
             starts: ascending([fraction(eps), fraction(ramp), fraction(eps - ramp)]),
-            // The mean over a pitch of the sum over the pairs is the integral over one pair's contact.
-            mean: [[0.0, ramp], [ramp, eps - ramp], [eps - ramp, eps]]
-                .iter()
-                // Five points are exact: one pair's stiffness is a polynomial of degree 9.
-                .map(|&[from, to]| integral(|x| law.one_pair(x), from, to))
-                .sum(),
+            mean: law.mean(),
         }
+    }
+
+    /// Harmonics of the tooth pitch, relative to the mean [N/m]: cosines and sines of the orders 1, 2, ...
+    pub fn fourier(mean: f64, cosine: &[f64], sine: &[f64]) -> StiffnessLaw {
+        StiffnessLaw {
+            shape: Shape::Fourier {
+                mean,
+                series: FourierSeries::new(cosine, sine),
+            },
+            starts: vec![0.0],
+            mean,
+        }
+    }
+
+    /// Linear between points (phase, k [N/m]), at least one. Phases ascend in [0, 1); one that appears twice is a
+    /// jump from the first value to the second.
+    pub fn table(points: &[(f64, f64)]) -> StiffnessLaw {
+        let table = Table::new(points);
+        StiffnessLaw {
+            starts: table.starts(),
+            mean: table.mean(),
+            shape: Shape::Table(table),
+        }
+    }
+
+    /// A value [N/m] that k never falls below; closely below the minimum (1e-4 of all amplitudes).
+    pub fn lower_bound_of_fourier(mean: f64, cosine: &[f64], sine: &[f64]) -> f64 {
+        mean * (1.0 + FourierSeries::new(cosine, sine).lower_bound())
     }
 
     /// Mean over the period [N/m].
@@ -101,9 +118,9 @@ impl StiffnessLaw {
         &self.starts
     }
 
-    /// Whether the law is the same at every phase.
-    pub fn is_constant(&self) -> bool {
-        matches!(self.shape, Shape::Constant { .. })
+    /// Whether the law is smooth at every phase: no step needs to end at its start.
+    pub fn is_smooth(&self) -> bool {
+        matches!(self.shape, Shape::Constant { .. } | Shape::Fourier { .. })
     }
 
     /// The piece that a phase in [0, 1) lies in; at a breakpoint the one that begins there.
@@ -118,6 +135,8 @@ impl StiffnessLaw {
     pub fn value(&self, cycle: f64, piece: usize) -> f64 {
         match self.shape {
             Shape::Constant { value } => value,
+            Shape::Fourier { mean, ref series } => mean * (1.0 + series.value(cycle)),
+            Shape::Table(ref table) => table.value(cycle, piece),
             Shape::Rectangular {
                 fewer_pairs,
                 more_pairs,
@@ -129,7 +148,7 @@ impl StiffnessLaw {
                     fewer_pairs
                 }
             }
-            Shape::ToothPair(law) => {
+            Shape::ToothPair(ref law) => {
                 // The number of pairs is that of the piece: rounding at its ends cannot change it.
                 let pairs = (law.contact_ratio - self.middle(piece)).floor().max(-1.0) + 1.0;
                 (0..pairs as usize)
@@ -142,37 +161,6 @@ impl StiffnessLaw {
     fn middle(&self, piece: usize) -> f64 {
         let end = self.starts.get(piece + 1).copied().unwrap_or(1.0);
         0.5 * (self.starts[piece] + end)
-    }
-}
-
-impl ToothPair {
-    /// Stiffness of one pair [N/m] at distance x [pitches] after its first contact.
-    fn one_pair(&self, x: f64) -> f64 {
-        let eps = self.contact_ratio;
-        let xi = 2.0 * x / eps - 1.0;
-        let load_share = if self.ramp == 0.0 {
-            1.0
-        } else {
-            let u = (x.min(eps - x) / self.ramp).clamp(0.0, 1.0);
-            u * u * u * (10.0 - u * (15.0 - 6.0 * u))
-        };
-        self.pair * self.profile(xi * xi) * load_share
-    }
-
-    /// 1 - quadratic xi^2 - quartic xi^4 over xi^2.
-    fn profile(&self, xi_squared: f64) -> f64 {
-        1.0 - xi_squared * (self.quadratic + xi_squared * self.quartic)
-    }
-
-    /// The smallest value of the profile over the contact: must not be negative.
-    pub fn weakest(&self) -> f64 {
-        let vertex = (-0.5 * self.quadratic / self.quartic).clamp(0.0, 1.0);
-        let inside = if vertex.is_finite() {
-            self.profile(vertex)
-        } else {
-            1.0
-        };
-        self.profile(1.0).min(inside).min(1.0)
     }
 }
 
@@ -207,10 +195,17 @@ mod tests {
         }
     }
 
+    /// 3e8 falls to 2e8 at 0.25, jumps to 4e8 there, stays until 0.75 and is back at 3e8 at 1.25.
+    const JUMPS: [(f64, f64); 3] = [(0.25, 2e8), (0.25, 4e8), (0.75, 4e8)];
+
     fn laws() -> Vec<StiffnessLaw> {
         let mut laws = vec![
             StiffnessLaw::constant(3e8),
             StiffnessLaw::rectangular(2e8, 5e8, 1.3),
+            StiffnessLaw::fourier(3e8, &[0.2, 0.0, -0.1], &[0.05, 0.3]),
+            StiffnessLaw::table(&[(0.3, 2e8)]),
+            StiffnessLaw::table(&JUMPS),
+            StiffnessLaw::table(&[(0.0, 2e8), (0.0, 3e8), (0.5, 4e8)]),
         ];
         for (contact_ratio, ramp) in [
             (1.6, 0.1),
@@ -285,13 +280,43 @@ mod tests {
     }
 
     #[test]
-    fn weakest_point_of_a_pair_is_found_inside_and_at_the_ends() {
-        assert!((example().weakest() - 0.5).abs() < 1e-15);
-        let hollow = ToothPair {
-            quadratic: 2.4,
-            quartic: -1.2,
-            ..example()
-        };
-        assert!((hollow.weakest() + 0.2).abs() < 1e-15);
+    fn fourier_is_its_mean_and_harmonics_without_breakpoints() {
+        let law = StiffnessLaw::fourier(3e8, &[0.2], &[0.1, 0.05]);
+        assert!(law.is_smooth() && law.mean() == 3e8);
+        // Cosine 1, 0, -1, 0 and sine 0, 1, 0, -1 at the quarters; the second sine vanishes at all of them.
+        for (cycle, relative) in [(0.0, 1.2), (0.25, 1.1), (0.5, 0.8), (0.75, 0.9), (1.0, 1.2)] {
+            assert!((law.value(cycle, 0) / (3e8 * relative) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_jumps_where_two_coincide() {
+        let law = StiffnessLaw::table(&JUMPS);
+        assert_eq!(law.starts(), [0.0, 0.25, 0.75]);
+        // From 4e8 at 0.75 to 2e8 at 1.25: 3e8 at the end of the period.
+        for (cycle, value) in [
+            (0.0, 3e8),
+            (0.125, 2.5e8),
+            (0.25, 4e8),
+            (0.5, 4e8),
+            (0.875, 3.5e8),
+        ] {
+            assert!((at(&law, cycle) / value - 1.0).abs() < 1e-15, "at {cycle}");
+        }
+        // Both sides of the jump, and both sides of the end of the period.
+        assert!((law.value(0.25, 0) / 2e8 - 1.0).abs() < 1e-15);
+        assert!((law.value(1.0, 2) / 3e8 - 1.0).abs() < 1e-15);
+        assert!((law.mean() / (0.5 * 4e8 + 0.5 * 3e8) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_table_may_jump_where_the_period_ends() {
+        // A saw tooth: up from 3e8 at 0 to 5e8 at 1, where it falls.
+        let law = StiffnessLaw::table(&[(0.0, 5e8), (0.0, 3e8)]);
+        assert_eq!(law.starts(), [0.0]);
+        assert!(!law.is_smooth());
+        for (cycle, value) in [(0.0, 3e8), (0.5, 4e8), (1.0, 5e8)] {
+            assert!((law.value(cycle, 0) / value - 1.0).abs() < 1e-15);
+        }
     }
 }

@@ -255,7 +255,7 @@ impl Mesh {
     }
 
     fn next_breakpoint(&self, time: f64) -> f64 {
-        if self.law.is_constant() || self.phase_rate == 0.0 {
+        if self.law.is_smooth() || self.phase_rate == 0.0 {
             return f64::INFINITY;
         }
         let Piece { origin, index } = self.piece_ahead(time);

@@ -2,11 +2,12 @@
 
 use core::f64::consts::TAU;
 
+use super::laws::{check_stiffness, stiffness_law};
 use super::rules::Rules;
 use super::speeds::{spread, transmissions};
 use super::{GearAddress, Mesh, Rotor};
-use crate::config::{self, Config, MeshDamping, MeshStiffness, Place, Problem};
-use crate::mesh::{LineOfAction, StiffnessLaw, ToothPair, pair_damping};
+use crate::config::{self, Config, MeshDamping, Place, Problem};
+use crate::mesh::{LineOfAction, pair_damping};
 
 /// Highest mesh frequency [Hz]: a step ends at every breakpoint of the stiffness.
 const FASTEST_MESH: f64 = 1e6;
@@ -117,80 +118,6 @@ fn find_gear(rules: &mut Rules<'_>, address: &str, rotors: &[Rotor]) -> Option<G
         )
     });
     found
-}
-
-fn check_stiffness(place: &Place, stiffness: &MeshStiffness, problems: &mut Vec<Problem>) {
-    let mut rules = Rules { place, problems };
-    let contact_ratio_rule = |rules: &mut Rules<'_>, contact_ratio: f64| {
-        rules.ensure(
-            "contact_ratio",
-            (1.0..=100.0).contains(&contact_ratio),
-            || format!("must be from 1 to 100, found {contact_ratio}"),
-        );
-    };
-    match *stiffness {
-        MeshStiffness::Constant { mean } => rules.positive("mean", mean, "N/m"),
-        MeshStiffness::Rectangular {
-            fewer_pairs,
-            more_pairs,
-            contact_ratio,
-        } => {
-            contact_ratio_rule(&mut rules, contact_ratio);
-            rules.positive("pair or single", fewer_pairs, "N/m");
-            rules.ensure("double", more_pairs >= fewer_pairs && more_pairs.is_finite(), || {
-                format!("must be at least the single stiffness of {fewer_pairs} N/m, found {more_pairs}")
-            });
-        }
-        MeshStiffness::ToothPair {
-            pair,
-            quadratic,
-            quartic,
-            ramp,
-            contact_ratio,
-        } => {
-            contact_ratio_rule(&mut rules, contact_ratio);
-            rules.positive("pair", pair, "N/m");
-            rules.not_negative("ramp", ramp, "pitches");
-            let weakest = ToothPair {
-                pair,
-                quadratic,
-                quartic,
-                ramp,
-                contact_ratio,
-            }
-            .weakest();
-            rules.ensure("quadratic", weakest >= 0.0, || {
-                format!(
-                    "1 - quadratic xi^2 - quartic xi^4 must not be negative for |xi| <= 1, \
-                     found {weakest} with quadratic {quadratic} and quartic {quartic}"
-                )
-            });
-        }
-    }
-}
-
-fn stiffness_law(stiffness: &MeshStiffness) -> StiffnessLaw {
-    match *stiffness {
-        MeshStiffness::Constant { mean } => StiffnessLaw::constant(mean),
-        MeshStiffness::Rectangular {
-            fewer_pairs,
-            more_pairs,
-            contact_ratio,
-        } => StiffnessLaw::rectangular(fewer_pairs, more_pairs, contact_ratio),
-        MeshStiffness::ToothPair {
-            pair,
-            quadratic,
-            quartic,
-            ramp,
-            contact_ratio,
-        } => StiffnessLaw::tooth_pair(ToothPair {
-            pair,
-            quadratic,
-            quartic,
-            ramp,
-            contact_ratio,
-        }),
-    }
 }
 
 /// Speeds must fit the tooth numbers, around loops too, and no mesh may be too fast.

@@ -4,6 +4,7 @@
 //! floors above assume about a model stands here as a rule with a message; they check nothing again.
 //! Knows no modes and no time.
 
+mod laws;
 mod meshes;
 mod names;
 mod rotors;

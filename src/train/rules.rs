@@ -24,6 +24,14 @@ impl Rules<'_> {
         });
     }
 
+    pub(super) fn all_finite(&mut self, key: &str, values: &[f64]) {
+        if let Some(wrong) = values.iter().find(|value| !value.is_finite()) {
+            self.ensure(key, false, || {
+                format!("every entry must be a finite number, found {wrong}")
+            });
+        }
+    }
+
     pub(super) fn positive(&mut self, key: &str, value: f64, unit: &str) {
         self.ensure(key, value > 0.0 && value.is_finite(), || {
             format!("must be greater than 0 and finite, found {value} {unit}")

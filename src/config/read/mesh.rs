@@ -87,8 +87,11 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
         }),
         ("rectangular", rectangular),
         ("tooth_pair", tooth_pair),
-        ("fourier", not_yet_a_law),
-        ("table", not_yet_a_law),
+        ("fourier", fourier),
+        ("table", |table| MeshStiffness::Table {
+            phase: table.numbers("phase"),
+            value: table.numbers("value"),
+        }),
     ];
     // Without a law nobody can say which keys are known: the table is not finished.
     let Some(read_law) = table.choice("law", None, &laws) else {
@@ -139,10 +142,15 @@ fn tooth_pair(table: &Table<'_, '_>) -> MeshStiffness {
     }
 }
 
-fn not_yet_a_law(table: &Table<'_, '_>) -> MeshStiffness {
-    for key in ["mean", "cosine", "sine", "phase", "value"] {
-        table.has(key);
+fn fourier(table: &Table<'_, '_>) -> MeshStiffness {
+    let cosine = table.optional_numbers("cosine");
+    let sine = table.optional_numbers("sine");
+    if cosine.is_none() && sine.is_none() {
+        table.problem("cosine", "missing; give cosine, sine, or both");
     }
-    table.not_yet("law", "this law");
-    MeshStiffness::Constant { mean: 1.0 }
+    MeshStiffness::Fourier {
+        mean: table.number("mean"),
+        cosine: cosine.unwrap_or_default(),
+        sine: sine.unwrap_or_default(),
+    }
 }

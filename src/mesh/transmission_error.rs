@@ -1,0 +1,89 @@
+//! The unloaded static transmission error: how far the true tooth surfaces are from conjugate ones.
+//!
+//! ```text
+//!   e(p) = sum of amplitude cos(2 pi order p + phase)      [m]     p: mesh phase [pitches], offset included
+//!   delta = n.(u_a - u_b) + s (R_a th_a + R_b th_b) - e    [m]     e > 0 is relief on the reference flank
+//! ```
+//!
+//! The back flank sees -e.
+
+use super::fourier::FourierSeries;
+
+/// e over the mesh phase.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TransmissionError {
+    series: FourierSeries,
+}
+
+/// One harmonic of the transmission error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorHarmonic {
+    /// Periods per tooth pitch. >= 1
+    pub order: u32,
+    /// Amplitude [m].
+    pub amplitude: f64,
+    /// Phase at mesh phase 0 [rad].
+    pub phase: f64,
+}
+
+impl TransmissionError {
+    /// The sum of harmonics; several of one order add up.
+    pub fn new(harmonics: &[ErrorHarmonic]) -> TransmissionError {
+        let highest = harmonics.iter().map(|one| one.order).max().unwrap_or(0) as usize;
+        let (mut cosine, mut sine) = (vec![0.0; highest], vec![0.0; highest]);
+        for harmonic in harmonics {
+            // A cos(x + f) = A cos f cos x - A sin f sin x
+            let (s, c) = libm::sincos(harmonic.phase);
+            cosine[harmonic.order as usize - 1] += harmonic.amplitude * c;
+            sine[harmonic.order as usize - 1] -= harmonic.amplitude * s;
+        }
+        TransmissionError {
+            series: FourierSeries::new(&cosine, &sine),
+        }
+    }
+
+    /// Whether the teeth are perfect: e = 0 at every phase.
+    pub fn is_zero(&self) -> bool {
+        self.series.is_zero()
+    }
+
+    /// e [m] at a mesh phase [pitches].
+    pub fn value(&self, phase: f64) -> f64 {
+        self.series.value(phase)
+    }
+
+    /// de/dp [m per pitch] at a mesh phase [pitches].
+    pub fn slope(&self, phase: f64) -> f64 {
+        self.series.slope(phase)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::TAU;
+
+    use super::*;
+
+    #[test]
+    fn the_error_is_the_sum_of_its_harmonics() {
+        let harmonics = [(1, 5e-6, 0.3), (3, 2e-6, -1.0), (1, 1e-6, 2.0)];
+        let error =
+            TransmissionError::new(&harmonics.map(|(order, amplitude, phase)| ErrorHarmonic {
+                order,
+                amplitude,
+                phase,
+            }));
+        for p in [0.0, 0.37, 5.9, -2.2] {
+            let angle = |order: u32, phase: f64| TAU * f64::from(order) * p + phase;
+            let (mut value, mut slope) = (0.0, 0.0);
+            for (order, amplitude, phase) in harmonics {
+                value += amplitude * libm::cos(angle(order, phase));
+                slope -= TAU * f64::from(order) * amplitude * libm::sin(angle(order, phase));
+            }
+            // Rounding of angles up to 100 rad.
+            assert!((error.value(p) - value).abs() < 1e-13 * 5e-6 * 10.0);
+            assert!((error.slope(p) - slope).abs() < 1e-13 * 5e-6 * 100.0);
+        }
+        assert!(!error.is_zero() && TransmissionError::default().is_zero());
+    }
+}

@@ -17,7 +17,7 @@
 //! | 3 | [`rotor`]: one shaft in modal coordinates |
 //! | 2 | [`train`]: the validated description |
 //! | 1 | [`config`]: the model file · [`element`]: shaft elements · [`mesh`]: gear meshes |
-//! | 0 | [`linalg`], [`solver`] |
+//! | 0 | [`linalg`], [`interpolation`], [`solver`] |
 
 pub mod config;
 pub mod description;
@@ -25,6 +25,7 @@ pub mod element;
 #[allow(unsafe_code)] // the C ABI needs pointers; every other module is safe Rust
 pub mod fmi2;
 pub mod interface;
+pub mod interpolation;
 pub mod linalg;
 pub mod mesh;
 pub mod model;

@@ -79,8 +79,16 @@ fn modes_with_shift(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, shift: f64) -
     })
 }
 
+impl Modes {
+    /// Number of rigid-body modes; they come first.
+    pub fn rigid_count(&self) -> usize {
+        let rigid = |squared: &&f64| **squared == 0.0;
+        self.squared_frequencies.iter().take_while(rigid).count()
+    }
+}
+
 /// The entry of largest magnitude; the first one of several within rounding.
-fn largest(vector: &DVector<f64>) -> f64 {
+pub fn largest(vector: &DVector<f64>) -> f64 {
     let peak = vector.amax();
     vector
         .iter()

@@ -14,6 +14,7 @@ mod document;
 mod mesh;
 mod place;
 mod read;
+mod rotor;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -22,6 +23,10 @@ pub use document::Lines;
 pub use mesh::{Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Reading, read};
+pub use rotor::{
+    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, Rotor,
+    Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
+};
 
 /// One model file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,8 +37,8 @@ pub struct Config {
     pub description: String,
     /// How the time simulation starts and runs.
     pub simulation: Simulation,
-    /// Which modes represent each rotor.
-    pub basis: Basis,
+    /// What represents each rotor; the default basis when absent.
+    pub basis: Option<Basis>,
     /// Materials by name; `default` is used where a segment names none.
     pub materials: BTreeMap<String, Material>,
     /// The shafts with everything on them.
@@ -67,9 +72,18 @@ pub enum Start {
     Rest,
 }
 
-/// `[basis]`: which modes represent each rotor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Basis {
+/// `[basis]`: what represents each rotor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Basis {
+    /// The modes; every mode up to the default frequency when absent.
+    pub modes: Option<BasisModes>,
+    /// Whether the deflections under unit loads at gears, bearings and torques are added.
+    pub static_shapes: bool,
+}
+
+/// Which modes represent each rotor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum BasisModes {
     /// The same number of modes for every rotor.
     Counts {
         /// Modes per lateral plane. >= 1
@@ -90,164 +104,6 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Density rho [kg/m^3]. > 0
     pub density: f64,
-}
-
-/// `[[rotor]]`: one shaft and everything on it. Positions are distances from the left end [m].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Rotor {
-    /// Unique identifier.
-    pub name: String,
-    /// Mean speed, positive about +z [rad/s]. At most 1e6 either way
-    pub speed: f64,
-    /// Rotation angle at time 0 [rad].
-    pub angle: f64,
-    /// Longest finite element [m]; a twentieth of the shaft when absent. > 0
-    pub max_element_length: Option<f64>,
-    /// Modal damping ratio of all elastic lateral modes. >= 0
-    pub lateral_damping_ratio: f64,
-    /// Modal damping ratio of all elastic torsional modes. >= 0
-    pub torsional_damping_ratio: f64,
-    /// Shaft sections from left to right.
-    pub segments: Vec<Segment>,
-    /// Rigid disks without teeth.
-    pub disks: Vec<Disk>,
-    /// Gears.
-    pub gears: Vec<Gear>,
-    /// Bearings to the gearbox.
-    pub bearings: Vec<Bearing>,
-    /// Mass unbalances.
-    pub unbalances: Vec<Unbalance>,
-    /// Places where an external torque acts.
-    pub torques: Vec<Torque>,
-    /// Nominal supports used to compute the modes only.
-    pub basis_supports: Vec<BasisSupport>,
-    /// Further places where displacement is output.
-    pub probes: Vec<Probe>,
-}
-
-/// `[[rotor.segment]]`: a cylindrical shaft section.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Segment {
-    /// Length [m]. > 0
-    pub length: f64,
-    /// Outer diameter [m]. > inner diameter
-    pub outer_diameter: f64,
-    /// Inner diameter [m]. >= 0
-    pub inner_diameter: f64,
-    /// Name of the material.
-    pub material: String,
-}
-
-/// Position and inertia shared by disks and gears: a thin rigid body on the shaft.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Disk {
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
-    /// Mass [kg]. >= 0
-    pub mass: f64,
-    /// Moment of inertia about the shaft axis [kg m^2]. >= 0
-    pub polar_inertia: f64,
-    /// Moment of inertia about a diameter [kg m^2]. >= 0
-    pub diametral_inertia: f64,
-}
-
-/// `[[rotor.gear]]`: a disk with teeth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Gear {
-    /// Unique identifier on its rotor.
-    pub name: String,
-    /// The gear as a rigid body.
-    pub body: Disk,
-    /// Number of teeth. >= 1
-    pub teeth: u32,
-    /// Size of the base circle.
-    pub base: BaseCircle,
-}
-
-/// The base circle of a gear, given directly or by the reference rack.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum BaseCircle {
-    /// Base radius R [m]. > 0
-    Radius(f64),
-    /// R = teeth x module x cos(pressure angle) / 2.
-    Rack {
-        /// Module [m]. > 0
-        module: f64,
-        /// Reference pressure angle [rad]. (0, pi/2)
-        pressure_angle: f64,
-    },
-}
-
-/// `[[rotor.bearing]]`: a linear spring and damper between shaft and gearbox.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Bearing {
-    /// Unique identifier on its rotor.
-    pub name: String,
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
-    /// Stiffness [N/m]; direct terms >= 0.
-    pub stiffness: Planar,
-    /// Damping [N s/m].
-    pub damping: Planar,
-}
-
-/// A 2 x 2 coefficient matrix in the x-y plane: force in the first direction per motion in the second.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Planar {
-    /// x force per x motion.
-    pub xx: f64,
-    /// x force per y motion.
-    pub xy: f64,
-    /// y force per x motion.
-    pub yx: f64,
-    /// y force per y motion.
-    pub yy: f64,
-}
-
-/// `[[rotor.unbalance]]`: an eccentric mass turning with the shaft.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Unbalance {
-    /// Unique identifier on its rotor.
-    pub name: String,
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
-    /// Mass times eccentricity m e [kg m]. >= 0
-    pub moment: f64,
-    /// Direction relative to the shaft's rotation angle [rad].
-    pub phase: f64,
-}
-
-/// `[[rotor.torque]]`: a place where an external torque acts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Torque {
-    /// Unique identifier on its rotor.
-    pub name: String,
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
-    /// Start value of the torque input [N m].
-    pub value: f64,
-    /// Resisting torque per angular velocity relative to the mean rotation [N m s/rad]. >= 0
-    pub slope: f64,
-}
-
-/// `[[rotor.basis_support]]`: a spring to ground used to compute the modes and subtracted again.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BasisSupport {
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
-    /// Lateral stiffness in both planes [N/m]. >= 0
-    pub lateral: f64,
-    /// Torsional stiffness [N m/rad]. >= 0
-    pub torsional: f64,
-}
-
-/// `[[rotor.probe]]`: a further place where displacement is output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Probe {
-    /// Unique identifier on its rotor.
-    pub name: String,
-    /// Distance from the shaft's left end [m].
-    pub position: f64,
 }
 
 /// `[gearbox_vibration]`: sinusoidal motion of all bearing supports.
@@ -274,26 +130,6 @@ impl Config {
         match postcard::take_from_bytes(bytes) {
             Ok((config, [])) => Some(config),
             _ => None,
-        }
-    }
-}
-
-impl Planar {
-    /// The coefficients as rows: `[[xx, xy], [yx, yy]]`.
-    pub fn rows(&self) -> [[f64; 2]; 2] {
-        [[self.xx, self.xy], [self.yx, self.yy]]
-    }
-}
-
-impl BaseCircle {
-    /// Base radius R [m] of a gear with this number of teeth.
-    pub fn radius(&self, teeth: u32) -> f64 {
-        match *self {
-            BaseCircle::Radius(radius) => radius,
-            BaseCircle::Rack {
-                module,
-                pressure_angle,
-            } => f64::from(teeth) * module * libm::cos(pressure_angle) / 2.0,
         }
     }
 }

@@ -54,7 +54,7 @@ pub struct ModalModel {
 pub struct Rotor {
     /// Index of A_1 in q.
     pub offset: usize,
-    /// Number of modes.
+    /// Number of modes and static shapes.
     pub counts: ModeCounts,
     /// Whether the first torsional coordinate is the rigid rotation.
     pub has_rigid_rotation: bool,
@@ -183,10 +183,13 @@ fn add_rotor(system: &mut System, rotor: &train::Rotor, modal: ModalRotor) -> Ro
         block: system.blocks.len(),
     };
     let station = |position: f64| builder.station(position);
-    let bearing = |bearing: &crate::config::Bearing| Bearing {
-        station: station(bearing.position),
-        stiffness: bearing.stiffness,
-        damping: bearing.damping,
+    let bearing = |bearing: &train::Bearing| {
+        let coefficients = bearing.coefficients(rotor.speed);
+        Bearing {
+            station: station(bearing.position),
+            stiffness: coefficients.stiffness,
+            damping: coefficients.damping,
+        }
     };
     let added = Rotor {
         offset,

@@ -15,44 +15,42 @@
 //! K_yy - K_xx stays as a term. Modal damping is C = M V diag(2 zeta w) V' M over all modes V of the
 //! finite-element model. Knows one rotor; knows no mesh and no time.
 
+mod basis;
+mod bow;
+mod elastic;
 mod finite_elements;
+mod projection;
+mod static_shapes;
 mod stations;
 
-use core::f64::consts::TAU;
 use core::fmt;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use crate::config::Basis;
-use crate::linalg::{Modes, natural_modes};
-use crate::train::Rotor;
+use crate::train::{Basis, Rotor};
 
+use basis::Shapes;
+use elastic::Elastic;
+use projection::LateralMatrices;
+
+pub use basis::ModeCounts;
 pub use finite_elements::FiniteElements;
 pub use stations::Stations;
-
-/// Number of modes kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ModeCounts {
-    /// Modes per lateral plane.
-    pub lateral: usize,
-    /// Torsional modes, a rigid rotation included.
-    pub torsional: usize,
-}
 
 /// A rotor in modal coordinates.
 #[derive(Debug, Clone)]
 pub struct ModalRotor {
     /// Where the stations are.
     pub stations: Stations,
-    /// Phi, 2N x n.
+    /// Phi, 2N x n: modes, then static shapes.
     pub lateral_shapes: DMatrix<f64>,
-    /// Phi_t, N x n_t.
+    /// Phi_t, N x n_t: modes, then static shapes.
     pub torsional_shapes: DMatrix<f64>,
     /// Natural frequencies of the lateral basis modes [Hz].
     pub lateral_frequencies: Vec<f64>,
     /// Natural frequencies of the torsional basis modes [Hz]; exactly 0 for the rigid rotation.
     pub torsional_frequencies: Vec<f64>,
-    /// Stiffness of [A, B], 2n x 2n.
+    /// Stiffness of [A, B] at the rotor's mean speed, 2n x 2n.
     pub lateral_stiffness: DMatrix<f64>,
     /// Damping and gyroscopic coupling of [A, B] at the rotor's mean speed, 2n x 2n.
     pub lateral_damping: DMatrix<f64>,
@@ -60,6 +58,22 @@ pub struct ModalRotor {
     pub torsional_stiffness: DMatrix<f64>,
     /// Damping of A_t, load slopes included, n_t x n_t.
     pub torsional_damping: DMatrix<f64>,
+    /// The mean rotation (1'J th) / (1'J 1) per coordinate of A_t.
+    pub mean_rotation: Vec<f64>,
+    /// Moment of inertia of the whole rotor about its axis, 1'J 1 [kg m^2].
+    pub inertia: f64,
+    /// Residual bows.
+    pub bows: Vec<BowLoad>,
+    lateral: LateralMatrices,
+}
+
+/// What a residual bow does to A and B: the load times cos(phi + phase) on A, times sin(phi + phase) on B.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BowLoad {
+    /// Phi'K_s r.
+    pub load: Vec<f64>,
+    /// Direction relative to the rotation angle phi [rad].
+    pub phase: f64,
 }
 
 /// Why a rotor cannot be reduced to modes.
@@ -79,43 +93,80 @@ enum Cause {
 }
 
 impl ModalRotor {
-    /// Computes the modes of the rotor and projects its equations. `counts` fixes the number of modes;
-    /// otherwise `basis` decides.
+    /// Computes the shapes of the rotor and projects its equations. `counts` fixes the number of modes and static
+    /// shapes; otherwise `basis` decides.
     pub fn reduce(
         rotor: &Rotor,
         basis: &Basis,
         counts: Option<ModeCounts>,
     ) -> Result<Self, ReductionError> {
+        let failed = |kind| move |cause| ReductionError::of(rotor, kind, cause);
         let elements = FiniteElements::assemble(rotor);
-        let lateral = lateral_modes(rotor, &elements)?;
-        let torsional = torsional_modes(rotor, &elements)?;
-        let counts = counts.unwrap_or_else(|| choose(basis, &lateral, &torsional));
-        let phi = lowest(rotor, "lateral", &lateral, counts.lateral)?;
-        let phi_t = lowest(rotor, "torsional", &torsional, counts.torsional)?;
-        let hertz = |modes: &Modes, shapes: &DMatrix<f64>| {
-            modes.squared_frequencies[..shapes.ncols()]
-                .iter()
-                .map(|w2| w2.sqrt() / TAU)
-                .collect()
-        };
+        let lateral = Elastic::lateral(rotor, &elements)
+            .ok_or(Cause::NoModes)
+            .map_err(failed("lateral"))?;
+        let torsional = Elastic::torsional(rotor, &elements)
+            .ok_or(Cause::NoModes)
+            .map_err(failed("torsional"))?;
+        let [extent, extent_t] = basis::extents(basis, counts, &lateral.modes, &torsional.modes);
+        let loads = basis::lateral_loads(rotor, &elements);
+        let phi = Shapes::of(&lateral, extent, &loads).map_err(failed("lateral"))?;
+        let loads = basis::torsional_loads(rotor, &elements);
+        let phi_t = Shapes::of(&torsional, extent_t, &loads).map_err(failed("torsional"))?;
+        let matrices = LateralMatrices::of(rotor, &elements, &lateral, &phi);
+        let size = 2 * phi.columns.ncols();
+        let mut stiffness = DMatrix::zeros(size, size);
+        let mut damping = DMatrix::zeros(size, size);
+        matrices.at(rotor.speed, &mut stiffness, &mut damping);
+        let bows: Option<Vec<BowLoad>> = rotor
+            .bows
+            .iter()
+            .map(|bow| {
+                let load = phi.columns.tr_mul(&bow::force(&elements, bow)?);
+                Some(BowLoad {
+                    load: load.as_slice().to_vec(),
+                    phase: bow.phase,
+                })
+            })
+            .collect();
+        let inertia = elements.inertia.sum();
+        let carried = phi_t.columns.tr_mul(&elements.inertia.column_sum()) / inertia;
         Ok(ModalRotor {
-            lateral_frequencies: hertz(&lateral, &phi),
-            torsional_frequencies: hertz(&torsional, &phi_t),
-            lateral_stiffness: lateral_stiffness(rotor, &elements, &lateral, &phi),
-            lateral_damping: lateral_damping(rotor, &elements, &lateral, &phi),
-            torsional_stiffness: torsional_stiffness(rotor, &elements, &torsional, &phi_t),
-            torsional_damping: torsional_damping(rotor, &elements, &phi_t)?,
-            lateral_shapes: phi,
-            torsional_shapes: phi_t,
+            lateral_frequencies: phi.frequencies(),
+            torsional_frequencies: phi_t.frequencies(),
+            lateral_stiffness: stiffness,
+            lateral_damping: damping,
+            torsional_stiffness: projection::torsional_stiffness(rotor, &elements, &phi_t),
+            torsional_damping: projection::torsional_damping(rotor, &elements, &torsional, &phi_t),
+            mean_rotation: carried.as_slice().to_vec(),
+            inertia,
+            bows: bows.ok_or(Cause::NoModes).map_err(failed("lateral"))?,
+            lateral: matrices,
+            lateral_shapes: phi.columns,
+            torsional_shapes: phi_t.columns,
             stations: elements.stations,
         })
     }
 
-    /// Number of modes in each direction.
+    /// Phi'G Phi: per speed, the damping in x per velocity in y, and its opposite in y per velocity in x; per
+    /// angular acceleration, the same for stiffness.
+    pub fn gyroscopic(&self) -> &DMatrix<f64> {
+        &self.lateral.gyroscopic
+    }
+
+    /// Overwrites stiffness and damping (gyroscopic coupling included) of [A, B], 2n x 2n, with those at another
+    /// speed [rad/s]; the basis stays. Allocates nothing.
+    pub fn lateral_at(&self, speed: f64, stiffness: &mut DMatrix<f64>, damping: &mut DMatrix<f64>) {
+        self.lateral.at(speed, stiffness, damping);
+    }
+
+    /// Number of modes and static shapes in each direction.
     pub fn counts(&self) -> ModeCounts {
         ModeCounts {
             lateral: self.lateral_shapes.ncols(),
             torsional: self.torsional_shapes.ncols(),
+            lateral_modes: self.lateral_frequencies.len(),
+            torsional_modes: self.torsional_frequencies.len(),
         }
     }
 
@@ -141,209 +192,6 @@ impl ModalRotor {
             .copied()
             .collect()
     }
-}
-
-/// Modes of one plane with K_xx and the supports.
-fn lateral_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, ReductionError> {
-    let mut stiffness = elements.shaft_stiffness.clone();
-    let springs = rotor
-        .bearings
-        .iter()
-        .map(|bearing| (bearing.position, bearing.stiffness.xx));
-    let supports = rotor
-        .basis_supports
-        .iter()
-        .map(|support| (support.position, support.lateral));
-    for (position, spring) in springs.chain(supports) {
-        let displacement = 2 * elements.stations.at(position);
-        stiffness[(displacement, displacement)] += spring;
-    }
-    natural_modes(&stiffness, &elements.mass)
-        .ok_or_else(|| ReductionError::of(rotor, "lateral", Cause::NoModes))
-}
-
-/// Torsional modes with the supports.
-fn torsional_modes(rotor: &Rotor, elements: &FiniteElements) -> Result<Modes, ReductionError> {
-    let mut stiffness = elements.torsional_stiffness.clone();
-    for support in &rotor.basis_supports {
-        let station = elements.stations.at(support.position);
-        stiffness[(station, station)] += support.torsional;
-    }
-    modes_with_exact_rotation(rotor, &stiffness, &elements.inertia)
-}
-
-/// A rigid rotation is exactly the same at all stations.
-fn modes_with_exact_rotation(
-    rotor: &Rotor,
-    stiffness: &DMatrix<f64>,
-    inertia: &DMatrix<f64>,
-) -> Result<Modes, ReductionError> {
-    let mut modes = natural_modes(stiffness, inertia)
-        .ok_or_else(|| ReductionError::of(rotor, "torsional", Cause::NoModes))?;
-    if modes.squared_frequencies[0] == 0.0 {
-        modes.shapes.column_mut(0).fill(1.0 / inertia.sum().sqrt());
-    }
-    Ok(modes)
-}
-
-/// The number of modes a basis asks for on this rotor.
-fn choose(basis: &Basis, lateral: &Modes, torsional: &Modes) -> ModeCounts {
-    match *basis {
-        Basis::Counts {
-            lateral_modes,
-            torsional_modes,
-        } => ModeCounts {
-            lateral: lateral_modes,
-            torsional: torsional_modes,
-        },
-        Basis::MaxFrequency(frequency) => {
-            let below = |modes: &Modes| {
-                modes
-                    .squared_frequencies
-                    .iter()
-                    .filter(|w2| w2.sqrt() <= TAU * frequency)
-                    .count()
-            };
-            ModeCounts {
-                lateral: below(lateral).max(2),
-                torsional: below(torsional).max(1),
-            }
-        }
-    }
-}
-
-/// The shapes of the lowest `count` modes.
-fn lowest(
-    rotor: &Rotor,
-    kind: &'static str,
-    modes: &Modes,
-    count: usize,
-) -> Result<DMatrix<f64>, ReductionError> {
-    let available = modes.shapes.ncols();
-    if count > available {
-        let cause = Cause::TooFewModes {
-            wanted: count,
-            available,
-        };
-        return Err(ReductionError::of(rotor, kind, cause));
-    }
-    Ok(modes.shapes.columns(0, count).into_owned())
-}
-
-/// Stiffness of [A, B]: the diagonal L^2 less the supports, and what the bearings add beyond K_xx.
-fn lateral_stiffness(
-    rotor: &Rotor,
-    elements: &FiniteElements,
-    modes: &Modes,
-    phi: &DMatrix<f64>,
-) -> DMatrix<f64> {
-    let n = phi.ncols();
-    let mut stiffness = DMatrix::zeros(2 * n, 2 * n);
-    for plane in [0, n] {
-        for (i, w2) in modes.squared_frequencies[..n].iter().enumerate() {
-            stiffness[(plane + i, plane + i)] += w2;
-        }
-        for support in &rotor.basis_supports {
-            let row = displacement_row(elements, phi, support.position);
-            add_outer(&mut stiffness, (plane, plane), -support.lateral, &row);
-        }
-    }
-    for bearing in &rotor.bearings {
-        let (row, k) = (
-            displacement_row(elements, phi, bearing.position),
-            bearing.stiffness,
-        );
-        add_outer(&mut stiffness, (0, n), k.xy, &row);
-        add_outer(&mut stiffness, (n, 0), k.yx, &row);
-        add_outer(&mut stiffness, (n, n), k.yy - k.xx, &row);
-    }
-    stiffness
-}
-
-/// Damping of [A, B]: bearings, modal damping, and the gyroscopic coupling at the mean speed.
-fn lateral_damping(
-    rotor: &Rotor,
-    elements: &FiniteElements,
-    modes: &Modes,
-    phi: &DMatrix<f64>,
-) -> DMatrix<f64> {
-    let n = phi.ncols();
-    let mut damping = DMatrix::zeros(2 * n, 2 * n);
-    for plane in [0, n] {
-        // The basis modes are among the modes V that carry the damping: Phi'C Phi is diagonal.
-        for (i, w2) in modes.squared_frequencies[..n].iter().enumerate() {
-            damping[(plane + i, plane + i)] += 2.0 * rotor.lateral_damping_ratio * w2.sqrt();
-        }
-    }
-    for bearing in &rotor.bearings {
-        let row = displacement_row(elements, phi, bearing.position);
-        for (i, coefficients) in bearing.damping.rows().iter().enumerate() {
-            for (j, &coefficient) in coefficients.iter().enumerate() {
-                add_outer(&mut damping, (i * n, j * n), coefficient, &row);
-            }
-        }
-    }
-    let gyroscopic = rotor.speed * phi.transpose() * &elements.gyroscopic * phi;
-    let mut coupling = damping.view_mut((0, n), (n, n));
-    coupling += &gyroscopic;
-    let mut coupling = damping.view_mut((n, 0), (n, n));
-    coupling -= &gyroscopic;
-    damping
-}
-
-/// Stiffness of A_t: the diagonal L_t^2 less the supports.
-fn torsional_stiffness(
-    rotor: &Rotor,
-    elements: &FiniteElements,
-    modes: &Modes,
-    phi_t: &DMatrix<f64>,
-) -> DMatrix<f64> {
-    let n = phi_t.ncols();
-    let mut stiffness =
-        DMatrix::from_diagonal(&DVector::from_row_slice(&modes.squared_frequencies[..n]));
-    for support in &rotor.basis_supports {
-        let row = rotation_row(elements, phi_t, support.position);
-        add_outer(&mut stiffness, (0, 0), -support.torsional, &row);
-    }
-    stiffness
-}
-
-/// Damping of A_t: load slopes, and modal damping over the modes without supports.
-fn torsional_damping(
-    rotor: &Rotor,
-    elements: &FiniteElements,
-    phi_t: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, ReductionError> {
-    let n = phi_t.ncols();
-    let mut damping = DMatrix::zeros(n, n);
-    if rotor.torsional_damping_ratio > 0.0 {
-        let modes =
-            modes_with_exact_rotation(rotor, &elements.torsional_stiffness, &elements.inertia)?;
-        let projection = phi_t.transpose() * &elements.inertia * &modes.shapes; // Phi_t'J V
-        for (mode, w2) in projection.column_iter().zip(&modes.squared_frequencies) {
-            damping += 2.0 * rotor.torsional_damping_ratio * w2.sqrt() * mode * mode.transpose();
-        }
-    }
-    for torque in &rotor.torques {
-        let row = rotation_row(elements, phi_t, torque.position);
-        add_outer(&mut damping, (0, 0), torque.slope, &row);
-    }
-    Ok(damping)
-}
-
-fn displacement_row(elements: &FiniteElements, phi: &DMatrix<f64>, position: f64) -> DVector<f64> {
-    phi.row(2 * elements.stations.at(position)).transpose()
-}
-
-fn rotation_row(elements: &FiniteElements, phi_t: &DMatrix<f64>, position: f64) -> DVector<f64> {
-    phi_t.row(elements.stations.at(position)).transpose()
-}
-
-/// The block of `matrix` at `corner` grows by `factor` row row'.
-fn add_outer(matrix: &mut DMatrix<f64>, corner: (usize, usize), factor: f64, row: &DVector<f64>) {
-    let n = row.len();
-    let mut block = matrix.view_mut(corner, (n, n));
-    block.ger(factor, row, row, 1.0);
 }
 
 impl ReductionError {

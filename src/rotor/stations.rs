@@ -1,9 +1,6 @@
 //! The stations (nodes) of a shaft: every place something is attached, and equal elements between.
 
-use crate::train::Rotor;
-
-/// Positions closer than this part of the shaft's length are one station.
-const SAME_PLACE: f64 = 1e-9;
+use crate::train::{Rotor, SAME_PLACE};
 
 /// Distances of the stations from the left end [m], ascending.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +54,7 @@ fn named_positions(rotor: &Rotor) -> Vec<f64> {
     positions.extend(rotor.gears.iter().map(|gear| gear.body.position));
     positions.extend(rotor.bearings.iter().map(|bearing| bearing.position));
     positions.extend(rotor.unbalances.iter().map(|unbalance| unbalance.position));
+    positions.extend(rotor.bows.iter().flat_map(|bow| &bow.positions));
     positions.extend(rotor.torques.iter().map(|torque| torque.position));
     positions.extend(rotor.basis_supports.iter().map(|support| support.position));
     positions.extend(rotor.probes.iter().map(|probe| probe.position));

@@ -4,6 +4,8 @@
 //! floors above assume about a model stands here as a rule with a message; they check nothing again.
 //! Knows no modes and no time.
 
+mod basis;
+mod bearings;
 mod laws;
 mod meshes;
 mod names;
@@ -13,11 +15,13 @@ mod speeds;
 mod validate;
 
 use crate::config::{
-    self, Basis, BasisSupport, Bearing, Config, Disk, GearboxVibration, Lines, Material, Probe,
+    self, BasisModes, BasisSupport, Bow, Config, Disk, GearboxVibration, Lines, Material, Probe,
     Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
 use crate::mesh::{LineOfAction, StiffnessLaw};
 
+pub use bearings::{Bearing, BearingLaw, CoefficientCurves, Coefficients};
+pub use rotors::SAME_PLACE;
 pub use speeds::{SpeedRatio, speed_ratios};
 pub use validate::validate;
 
@@ -30,7 +34,7 @@ pub struct GearTrain {
     pub description: String,
     /// How the time simulation starts and runs.
     pub simulation: Simulation,
-    /// Which modes represent each rotor.
+    /// What represents each rotor.
     pub basis: Basis,
     /// The shafts.
     pub rotors: Vec<Rotor>,
@@ -38,6 +42,15 @@ pub struct GearTrain {
     pub meshes: Vec<Mesh>,
     /// Sinusoidal motion of all bearing supports.
     pub gearbox_vibration: GearboxVibration,
+}
+
+/// What represents each rotor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Basis {
+    /// The modes.
+    pub modes: BasisModes,
+    /// Whether the deflections under unit loads at gears, bearings and torques are added.
+    pub static_shapes: bool,
 }
 
 /// One shaft and everything on it.
@@ -65,6 +78,8 @@ pub struct Rotor {
     pub bearings: Vec<Bearing>,
     /// Mass unbalances.
     pub unbalances: Vec<Unbalance>,
+    /// Residual bows.
+    pub bows: Vec<Bow>,
     /// External torques.
     pub torques: Vec<Torque>,
     /// Nominal supports for the basis.

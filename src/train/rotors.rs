@@ -1,8 +1,9 @@
 //! The rules of one rotor, and the way from its tables to a [`Rotor`].
 
+use super::bearings::resolve_bearing;
 use super::rules::Rules;
 use super::{Gear, Rotor, Section};
-use crate::config::{self, BaseCircle, Config, Disk, Place, Planar, Problem};
+use crate::config::{self, BaseCircle, Config, Disk, Place, Problem};
 
 /// More elements than this on one shaft make the dense eigenproblem slow and gain nothing.
 const MOST_ELEMENTS: f64 = 400.0;
@@ -10,6 +11,8 @@ const MOST_ELEMENTS: f64 = 400.0;
 const MOST_ATTACHED: usize = 400;
 /// Larger angles leave too few digits for the phase of the teeth [rad].
 const LARGEST_ANGLE: f64 = 1e6;
+/// Positions closer than this part of the shaft's length are one station.
+pub const SAME_PLACE: f64 = 1e-9;
 /// No shaft turns faster [rad/s]; far above it, the teeth would pass in less than rounding of time.
 const FASTEST: f64 = 1e6;
 
@@ -39,6 +42,7 @@ pub(super) fn resolve_rotor(
         rotor.gears.len(),
         rotor.bearings.len(),
         rotor.unbalances.len(),
+        rotor.bows.iter().map(|bow| bow.positions.len()).sum(),
         rotor.torques.len(),
         rotor.basis_supports.len(),
         rotor.probes.len(),
@@ -63,6 +67,11 @@ pub(super) fn resolve_rotor(
         .filter(|_| known)
         .map_or(f64::INFINITY, |section| section.end);
     check_elements(place, rotor, length, problems);
+    let mut bearings = Vec::new();
+    for (index, bearing) in rotor.bearings.iter().enumerate() {
+        let place = place.element("bearing", index, Some(&bearing.name));
+        bearings.push(resolve_bearing(&place, bearing, rotor.speed, problems));
+    }
     let gear = |gear: &config::Gear| Gear {
         name: gear.name.clone(),
         body: gear.body,
@@ -79,8 +88,9 @@ pub(super) fn resolve_rotor(
         sections,
         disks: rotor.disks.clone(),
         gears: rotor.gears.iter().map(gear).collect(),
-        bearings: rotor.bearings.clone(),
+        bearings,
         unbalances: rotor.unbalances.clone(),
+        bows: rotor.bows.clone(),
         torques: rotor.torques.clone(),
         basis_supports: rotor.basis_supports.clone(),
         probes: rotor.probes.clone(),
@@ -172,13 +182,6 @@ fn check_elements(
             problems,
         }
         .on_shaft(bearing.position, length);
-        check_planar(
-            &place.table("stiffness"),
-            &bearing.stiffness,
-            "N/m",
-            problems,
-        );
-        check_planar(&place.table("damping"), &bearing.damping, "N s/m", problems);
     }
     for (index, unbalance) in rotor.unbalances.iter().enumerate() {
         let place = place("unbalance", index, Some(&unbalance.name));
@@ -189,6 +192,17 @@ fn check_elements(
         rules.on_shaft(unbalance.position, length);
         rules.not_negative("moment", unbalance.moment, "kg m");
         rules.finite("phase", unbalance.phase);
+    }
+    for (index, bow) in rotor.bows.iter().enumerate() {
+        let place = place("bow", index, None);
+        check_bow(
+            &mut Rules {
+                place: &place,
+                problems,
+            },
+            bow,
+            length,
+        );
     }
     for (index, torque) in rotor.torques.iter().enumerate() {
         let place = place("torque", index, Some(&torque.name));
@@ -262,10 +276,27 @@ fn check_gear(rules: &mut Rules<'_>, gear: &config::Gear, length: f64) {
     }
 }
 
-fn check_planar(place: &Place, planar: &Planar, unit: &str, problems: &mut Vec<Problem>) {
-    let mut rules = Rules { place, problems };
-    rules.not_negative("xx", planar.xx, unit);
-    rules.not_negative("yy", planar.yy, unit);
-    rules.finite("xy", planar.xy);
-    rules.finite("yx", planar.yx);
+fn check_bow(rules: &mut Rules<'_>, bow: &config::Bow, length: f64) {
+    let (places, offsets) = (bow.positions.len(), bow.amplitudes.len());
+    rules.ensure("positions", places > 0, || {
+        "needs at least one position, and three to bend the shaft".to_string()
+    });
+    rules.ensure("amplitudes", offsets == places, || {
+        format!("needs one offset for each of the {places} positions, found {offsets}")
+    });
+    for (index, &position) in bow.positions.iter().enumerate() {
+        rules.along_shaft("positions", position, length);
+        // Closer positions are one station, which has one offset.
+        let same = |other: &&f64| (**other - position).abs() <= SAME_PLACE * length;
+        let other = bow.positions[..index].iter().find(same);
+        if let Some(other) = other.filter(|_| length.is_finite()) {
+            rules.ensure("positions", false, || {
+                format!("must all be different, found {other} m and {position} m")
+            });
+        }
+    }
+    for &amplitude in &bow.amplitudes {
+        rules.finite("amplitudes", amplitude);
+    }
+    rules.finite("phase", bow.phase);
 }

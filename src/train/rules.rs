@@ -49,16 +49,21 @@ impl Rules<'_> {
     }
 
     pub(super) fn on_shaft(&mut self, position: f64, length: f64) {
+        self.along_shaft("position", position, length);
+    }
+
+    /// A position under another key than `position`.
+    pub(super) fn along_shaft(&mut self, key: &str, position: f64, length: f64) {
         let end = length * (1.0 + 1e-9); // sums of segment lengths carry rounding
         if position.is_nan() || position < 0.0 || position > end {
             let rule = if position > end {
-                format!("position {position} m lies beyond the shaft's end at {length} m")
+                format!("{key} {position} m lies beyond the shaft's end at {length} m")
             } else {
                 format!(
-                    "position: must be a distance from the left end, 0 or more, found {position} m"
+                    "{key}: must be a distance from the left end, 0 or more, found {position} m"
                 )
             };
-            self.problems.push(self.place.problem("position", rule));
+            self.problems.push(self.place.problem(key, rule));
         }
     }
 

@@ -3,11 +3,12 @@
 //! Each check pushes a [`Problem`] that names key, rule and found value and then goes on, so that one run
 //! finds everything.
 
+use super::basis::{check_basis, resolve_basis};
 use super::meshes::{check_phases, check_speeds, resolve_mesh};
 use super::rotors::resolve_rotor;
 use super::rules::Rules;
 use super::{GearTrain, names, speed_ratios};
-use crate::config::{self, Basis, Config, Place, Problem};
+use crate::config::{self, Config, Place, Problem};
 
 /// Checks a configuration against every rule. Gives the train and warnings, or all problems.
 pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Problem>> {
@@ -15,7 +16,7 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
     names::check(config, &mut problems);
     let root = Place::root();
     check_simulation(&root.table("simulation"), &config.simulation, &mut problems);
-    check_basis(&root.table("basis"), &config.basis, &mut problems);
+    check_basis(config.basis.as_ref(), &mut problems);
     check_vibration(config, &mut problems);
     for (name, material) in &config.materials {
         let place = root.table(&format!("material.{name}"));
@@ -57,12 +58,13 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
         name: config.name.clone(),
         description: config.description.clone(),
         simulation: config.simulation.clone(),
-        basis: config.basis.clone(),
+        basis: resolve_basis(config.basis.as_ref(), &meshes),
         rotors,
         meshes,
         gearbox_vibration: config.gearbox_vibration,
     };
-    let warnings = unbalanced_torques(&train);
+    let mut warnings = unbalanced_torques(&train);
+    warnings.extend(bows_without_force(&train));
     Ok((train, warnings))
 }
 
@@ -76,24 +78,6 @@ fn check_simulation(place: &Place, simulation: &config::Simulation, problems: &m
     });
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");
-}
-
-fn check_basis(place: &Place, basis: &Basis, problems: &mut Vec<Problem>) {
-    let mut rules = Rules { place, problems };
-    match *basis {
-        Basis::Counts {
-            lateral_modes,
-            torsional_modes,
-        } => {
-            rules.ensure("lateral_modes", lateral_modes >= 1, || {
-                "must be at least 1, found 0".to_string()
-            });
-            rules.ensure("torsional_modes", torsional_modes >= 1, || {
-                "must be at least 1 (the rigid rotation counts), found 0".to_string()
-            });
-        }
-        Basis::MaxFrequency(frequency) => rules.positive("max_frequency", frequency, "Hz"),
-    }
 }
 
 fn check_vibration(config: &Config, problems: &mut Vec<Problem>) {
@@ -135,6 +119,26 @@ fn unbalanced_torques(train: &GearTrain) -> Vec<Problem> {
                  this rotor) and no load has a slope: at prescribed speed the rotation will drift"
             );
             warnings.push(place.problem("torque", message));
+        }
+    }
+    warnings
+}
+
+/// Warns of bows that bend nothing.
+fn bows_without_force(train: &GearTrain) -> Vec<Problem> {
+    let mut warnings = Vec::new();
+    for (number, rotor) in train.rotors.iter().enumerate() {
+        let shaft = Place::root().element("rotor", number, Some(&rotor.name));
+        for (index, bow) in rotor.bows.iter().enumerate() {
+            let count = bow.positions.len();
+            if count < 3 {
+                let message = format!(
+                    "positions: a straight shaft passes through {count} offsets without bending, so that this \
+                     bow gives no force; three positions or more bend it"
+                );
+                let place = shaft.element("bow", index, None);
+                warnings.push(place.problem("positions", message));
+            }
         }
     }
     warnings

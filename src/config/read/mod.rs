@@ -4,7 +4,7 @@ mod mesh;
 mod rotor;
 
 use super::document::{Document, Lines, Table};
-use super::{Basis, Config, GearboxVibration, Material, Problem, Simulation, Start};
+use super::{Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, Start};
 
 /// What a model file says, and what is wrong with it.
 #[derive(Debug)]
@@ -43,7 +43,11 @@ fn top(table: Table<'_, '_>) -> Config {
         name: table.string("name"),
         description: table.optional_string("description").unwrap_or_default(),
         simulation: simulation(table.table("simulation")),
-        basis: basis(&table),
+        basis: table.table("basis").map(|table| {
+            let basis = basis(&table);
+            table.finish();
+            basis
+        }),
         materials: table
             .named_tables("material")
             .into_iter()
@@ -98,33 +102,28 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
     simulation
 }
 
-fn basis(top: &Table<'_, '_>) -> Basis {
-    let Some(table) = top.table("basis") else {
-        top.problem(
-            "basis",
-            "missing; the default basis with static shapes is not available yet: give lateral_modes \
-             and torsional_modes, or max_frequency",
-        );
-        return Basis::MaxFrequency(f64::NAN);
-    };
-    if table.boolean_or("static_shapes", false) {
-        table.not_yet("static_shapes", "static_shapes = true");
-    }
-    let basis = if let Some(frequency) = table.optional_number("max_frequency") {
-        for key in ["lateral_modes", "torsional_modes"] {
+fn basis(table: &Table<'_, '_>) -> Basis {
+    let static_shapes = table.boolean_or("static_shapes", false);
+    let counts = ["lateral_modes", "torsional_modes"];
+    let modes = if let Some(frequency) = table.optional_number("max_frequency") {
+        for key in counts {
             if table.has(key) {
                 table.problem(key, "contradicts max_frequency; give one or the other");
             }
         }
-        Basis::MaxFrequency(frequency)
+        Some(BasisModes::MaxFrequency(frequency))
+    } else if counts.map(|key| table.has(key)) == [false, false] {
+        None
     } else {
-        Basis::Counts {
+        Some(BasisModes::Counts {
             lateral_modes: table.count("lateral_modes"),
             torsional_modes: table.count("torsional_modes"),
-        }
+        })
     };
-    table.finish();
-    basis
+    Basis {
+        modes,
+        static_shapes,
+    }
 }
 
 fn material((name, table): (String, Table<'_, '_>)) -> (String, Material) {

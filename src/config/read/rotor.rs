@@ -2,11 +2,11 @@
 
 use super::super::document::Table;
 use super::super::{
-    BaseCircle, BasisSupport, Bearing, Disk, Gear, Planar, Probe, Rotor, Segment, Torque, Unbalance,
+    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, Rotor,
+    Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
 
 pub(super) fn rotor(table: Table<'_, '_>) -> Rotor {
-    table.not_yet("bow", "residual bow");
     let rotor = Rotor {
         name: table.string("name"),
         speed: table.number("speed"),
@@ -19,6 +19,7 @@ pub(super) fn rotor(table: Table<'_, '_>) -> Rotor {
         gears: each(&table, "gear", gear),
         bearings: each(&table, "bearing", bearing),
         unbalances: each(&table, "unbalance", unbalance),
+        bows: each(&table, "bow", bow),
         torques: each(&table, "torque", torque),
         basis_supports: each(&table, "basis_support", basis_support),
         probes: each(&table, "probe", probe),
@@ -91,20 +92,58 @@ fn base_circle(table: &Table<'_, '_>) -> BaseCircle {
 }
 
 fn bearing(table: &Table<'_, '_>) -> Bearing {
+    let at_speed = speed_table(table);
+    if at_speed.is_some() {
+        for key in ["stiffness", "damping"] {
+            if table.has(key) {
+                table.problem(key, "contradicts at_speed; give one or the other");
+            }
+        }
+    } else if !table.has("stiffness") {
+        table.problem("stiffness", "missing; give stiffness, or at_speed");
+    }
     Bearing {
         name: table.string("name"),
         position: table.number("position"),
         stiffness: planar(table, "stiffness"),
         damping: planar(table, "damping"),
+        at_speed,
     }
 }
 
-/// yy defaults to xx, cross terms to zero; damping may be absent altogether.
+/// `at_speed` and `outside_speeds`.
+fn speed_table(bearing: &Table<'_, '_>) -> Option<SpeedTable> {
+    let choices = [
+        ("refuse", OutsideSpeeds::Refuse),
+        ("hold", OutsideSpeeds::Hold),
+    ];
+    let outside = bearing.choice("outside_speeds", Some(OutsideSpeeds::Refuse), &choices);
+    if bearing.has("at_speed") {
+        return Some(SpeedTable {
+            points: each(bearing, "at_speed", speed_point),
+            outside: outside.unwrap_or(OutsideSpeeds::Refuse),
+        });
+    }
+    if bearing.has("outside_speeds") {
+        bearing.problem("outside_speeds", "has a meaning only with at_speed");
+    }
+    None
+}
+
+fn speed_point(table: &Table<'_, '_>) -> SpeedPoint {
+    if !table.has("stiffness") {
+        table.problem("stiffness", "missing");
+    }
+    SpeedPoint {
+        speed: table.number("speed"),
+        stiffness: planar(table, "stiffness"),
+        damping: planar(table, "damping"),
+    }
+}
+
+/// yy defaults to xx, cross terms to zero, an absent table to nothing.
 fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
     let Some(table) = bearing.table(key) else {
-        if key == "stiffness" && !bearing.has(key) {
-            bearing.problem(key, "missing");
-        }
         return Planar {
             xx: 0.0,
             xy: 0.0,
@@ -128,6 +167,14 @@ fn unbalance(table: &Table<'_, '_>) -> Unbalance {
         name: table.string("name"),
         position: table.number("position"),
         moment: table.number("moment"),
+        phase: table.number_or("phase", 0.0),
+    }
+}
+
+fn bow(table: &Table<'_, '_>) -> Bow {
+    Bow {
+        positions: table.numbers("positions"),
+        amplitudes: table.numbers("amplitudes"),
         phase: table.number_or("phase", 0.0),
     }
 }

@@ -1,4 +1,5 @@
-//! The rows of natural frequencies and modal coordinates. Modes count from one in their names.
+//! The rows of natural frequencies and modal coordinates. Modes count from one in their names; frequencies are
+//! those of elastic modes, and static shapes, which have none of their own, follow the modes.
 
 use super::super::{Quantity, Unit};
 use super::{AXES, Table};
@@ -8,8 +9,14 @@ use crate::train::Rotor;
 impl Table<'_> {
     pub(super) fn frequencies(&mut self, index: usize, rotor: &Rotor, modal: &ModalRotor) {
         let shaft = &rotor.name;
-        for mode in 0..modal.counts.lateral {
-            let number = mode + 1;
+        // A shaft that no bearing holds has lateral modes without frequency.
+        let rigid = modal
+            .lateral_frequencies
+            .iter()
+            .take_while(|&&hertz| hertz == 0.0)
+            .count();
+        for mode in rigid..modal.counts.lateral_modes {
+            let number = mode + 1 - rigid;
             let quantity = Quantity::LateralFrequency { rotor: index, mode };
             let text = format!("Natural frequency of lateral mode {number} of {shaft} alone");
             self.row(
@@ -20,7 +27,7 @@ impl Table<'_> {
             );
         }
         let rigid = usize::from(modal.has_rigid_rotation);
-        for mode in rigid..modal.counts.torsional {
+        for mode in rigid..modal.counts.torsional_modes {
             let number = mode + 1 - rigid;
             let quantity = Quantity::TorsionalFrequency { rotor: index, mode };
             let text =
@@ -43,9 +50,9 @@ impl Table<'_> {
                 let quantity = Quantity::Modal {
                     coordinate: offset + plane * n + mode,
                 };
-                let text = format!(
-                    "Modal coordinate of lateral mode {number} of {shaft} in {letter}, mass normalised"
-                );
+                let kind = kind("lateral mode", mode, modal.counts.lateral_modes, number);
+                let text =
+                    format!("Modal coordinate of {kind} of {shaft} in {letter}, mass normalised");
                 self.row(
                     format!("{shaft}.modal.{letter}[{number}]"),
                     Unit::One,
@@ -71,9 +78,13 @@ impl Table<'_> {
             let quantity = Quantity::Modal {
                 coordinate: first + mode,
             };
-            let text = format!(
-                "Modal coordinate of elastic torsional mode {number} of {shaft}, mass normalised"
+            let kind = kind(
+                "elastic torsional mode",
+                mode,
+                modal.counts.torsional_modes,
+                number,
             );
+            let text = format!("Modal coordinate of {kind} of {shaft}, mass normalised");
             self.row(
                 format!("{shaft}.modal.theta[{number}]"),
                 Unit::One,
@@ -81,5 +92,14 @@ impl Table<'_> {
                 text,
             );
         }
+    }
+}
+
+/// What a coordinate stands for: the modes come first, then the static shapes, which count anew.
+fn kind(mode: &str, coordinate: usize, modes: usize, number: usize) -> String {
+    if coordinate < modes {
+        format!("{mode} {number}")
+    } else {
+        format!("static shape {}", coordinate - modes + 1)
     }
 }

@@ -3,7 +3,7 @@
 use super::super::parameter::{Parameter, PlanarEntry, VibrationEntry};
 use super::super::{Quantity, Unit};
 use super::Table;
-use crate::train::{GearTrain, Rotor, speed_ratios};
+use crate::train::{Bearing, GearTrain, Rotor, speed_ratios};
 
 impl Table<'_> {
     pub(super) fn parameters(&mut self, train: &GearTrain) {
@@ -106,7 +106,9 @@ impl Table<'_> {
                 text,
             );
         }
-        for (bearing, data) in rotor.bearings.iter().enumerate() {
+        // Coefficients that depend on the speed follow from mean_speed.
+        let constant = |(_, data): &(usize, &Bearing)| !data.depends_on_speed();
+        for (bearing, data) in rotor.bearings.iter().enumerate().filter(constant) {
             let place = format!("bearing {} of {shaft}", data.name);
             for (letters, entry) in PlanarEntry::NAMED {
                 let parameter = Parameter::BearingStiffness {

@@ -3,7 +3,9 @@
 mod support;
 
 use geartrain::train::load;
-use support::{gear_pair, valid};
+use support::{gear_pair, star, three_stage, valid};
+
+const LAW: &str = "law = \"constant\"\nmean = 4e8";
 
 /// The messages about a gear pair with this stiffness law.
 fn about_law(law: &str) -> Vec<String> {
@@ -126,4 +128,209 @@ fn tables_must_ascend_within_a_period_and_stay_positive() {
         &about_law("law = \"table\"\nvalue = [2e8]"),
         &["mesh \"mesh\", stiffness", "phase", "missing"],
     );
+}
+
+#[test]
+fn transmission_error_counts_its_orders_per_tooth() {
+    let with =
+        |keys: &str| gear_pair(3, LAW, "") + &format!("[[mesh.transmission_error]]\n{keys}\n");
+    valid(&with("order = 3\namplitude = 5e-6\nphase = 0.4"));
+    for (keys, words) in [
+        (
+            "order = 0\namplitude = 1e-6",
+            ["mesh \"mesh\", transmission_error 1", "order", "found 0"],
+        ),
+        (
+            "order = 101\namplitude = 1e-6",
+            ["order", "from 1", "to 100"],
+        ),
+        (
+            "order = 1.5\namplitude = 1e-6",
+            ["order", "whole number", "1.5"],
+        ),
+        (
+            "amplitude = 1e-6",
+            ["transmission_error 1", "order", "missing"],
+        ),
+        (
+            "order = 1",
+            ["transmission_error 1", "amplitude", "missing"],
+        ),
+        ("order = 1\namplitude = nan", ["amplitude", "finite", "NaN"]),
+        (
+            "order = 1\namplitude = 1e-6\nphase = inf",
+            ["phase", "finite", "inf"],
+        ),
+        (
+            "order = 1\namplitude = 1e-6\nangle = 1",
+            ["angle", "unknown key", "order, amplitude, phase"],
+        ),
+    ] {
+        one_message(&about(&with(keys)), &words);
+    }
+}
+
+#[test]
+fn a_ring_is_the_second_gear_the_larger_one_and_turns_the_same_way() {
+    one_message(
+        &about(&gear_pair(3, LAW, "internal = true").replace("speed = -150", "speed = 150")),
+        &["mesh \"mesh\": gears", "ring", "24 : 24", "swap the two"],
+    );
+    let first_ring = "gears = [\"planet1.gear\", \"ring.gear\"]";
+    let swapped = star().replace(first_ring, "gears = [\"ring.gear\", \"planet1.gear\"]");
+    one_message(&about(&swapped), &["ring1", "70 : 25", "swap the two"]);
+    let flat = star().replace("base_radius = 0.14", "base_radius = 0.05");
+    let messages = about(&flat);
+    assert_eq!(messages.len(), 2, "{messages:#?}");
+    assert!(messages[0].contains("base radius of the second gear") && messages[0].contains("0.05"));
+    // The speed of a ring has the sign of that of the gear inside it.
+    let backwards = star().replace("speed = -57.142857142857146", "speed = 57.142857142857146");
+    let messages = about(&backwards);
+    assert_eq!(messages.len(), 2, "{messages:#?}");
+    for word in [
+        "ring1",
+        "25 : 70 teeth in a ring",
+        "-57.14",
+        "\"ring\"",
+        "found 57.14",
+    ] {
+        assert!(
+            messages[0].contains(word),
+            "`{word}` is not in {}",
+            messages[0]
+        );
+    }
+    one_message(
+        &about(&gear_pair(3, LAW, "internal = 1")),
+        &["internal", "true or false", "found 1"],
+    );
+}
+
+#[test]
+fn a_loop_that_cannot_turn_names_its_meshes_and_what_to_change() {
+    // Without internal = true, planet 1 would turn the ring the other way than planet 2 does.
+    one_message(
+        &about(&star().replacen("internal = true\n", "", 1)),
+        &[
+            "mesh \"ring1\": gears: closes a loop",
+            "cannot turn",
+            "is -0.357",
+            "and 0.357",
+            "through \"sun1\", \"sun2\", \"ring2\"",
+            "change tooth numbers",
+        ],
+    );
+}
+
+/// The messages of all warnings.
+fn warnings(text: &str) -> Vec<String> {
+    valid(text)
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect()
+}
+
+#[test]
+fn meshes_of_one_gear_follow_each_other_as_its_teeth_pass() {
+    // The tooth of the sun that is at planet 1 now is at planet 2 half a turn later: p_2(t + pi / Om) = p_1(t).
+    let train = valid(&star()).train;
+    let phase = |mesh: usize, time: f64| {
+        train.meshes[mesh].start_phase + train.meshes[mesh].phase_rate * time
+    };
+    let half_turn = core::f64::consts::PI / 200.0;
+    assert!(
+        (phase(1, half_turn + 0.001) - phase(0, 0.001)).abs() < 1e-12,
+        "rounding"
+    );
+    assert_eq!((phase(0, 0.0), phase(1, 0.0)), (0.0, -10.0)); // 20 teeth, half a turn
+
+    // The same on the other flank, from a given phase, with an initial angle: s = -1, z = 36, 90 degrees.
+    let text = three_stage()
+        .replace("flank = 1", "flank = -1")
+        .replace(
+            "speed = 314.1592653589793 ",
+            "angle = 0.5\nspeed = 314.1592653589793 ",
+        )
+        .replacen("phase = 0.0\ncontact", "phase = 0.25\ncontact", 1)
+        .replacen("center_angle = 0.0", "center_angle = 4.71238898038469", 1);
+    let (before, last) = text.rsplit_once("phase = 0.0\ncontact").unwrap();
+    let loaded = valid(&format!("{before}contact{last}"));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let turned = 36.0 * 0.5 / core::f64::consts::TAU;
+    for (mesh, phase) in loaded.train.meshes.iter().zip([0.25, 0.25 + 9.0]) {
+        assert!(
+            (mesh.start_phase - (phase - turned)).abs() < 1e-12,
+            "rounding"
+        );
+    }
+}
+
+#[test]
+fn phases_that_geometry_alone_does_not_give_are_warned_of() {
+    // The planets are idlers: their flanks toward sun and ring differ.
+    let found = warnings(&star().replace("phase = 0.3\n", ""));
+    assert_eq!(found.len(), 2, "{found:#?}");
+    for (message, names) in found.iter().zip([["ring1", "sun1"], ["ring2", "sun2"]]) {
+        for word in [
+            names[0],
+            "phase: missing",
+            "0 pitches",
+            names[1],
+            "tooth thicknesses",
+            "give phase",
+        ] {
+            assert!(message.contains(word), "`{word}` is not in {message}");
+        }
+    }
+    // One gear driving on one flank and driven on the other.
+    let (before, last) = three_stage()
+        .rsplit_once("flank = 1")
+        .map(|(a, b)| (a.to_string(), b.to_string()))
+        .unwrap();
+    let found = warnings(&format!(
+        "{before}flank = -1{}",
+        last.replace("phase = 0.0\n", "")
+    ));
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(
+        found[0].contains("mesh13") && found[0].contains("-18 pitches"),
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn teeth_of_different_base_pitch_and_rings_meshed_from_outside_are_warned_of() {
+    let found = warnings(&star().replace("base_radius = 0.14", "base_radius = 0.15"));
+    assert_eq!(found.len(), 2, "{found:#?}");
+    for word in [
+        "ring1",
+        "0.05 m and 0.15 m",
+        "25 : 70 teeth",
+        "do not fit",
+        "change a base_radius",
+    ] {
+        assert!(found[0].contains(word), "`{word}` is not in {}", found[0]);
+    }
+    // Planet 2 outside the ring instead of inside.
+    let star = star();
+    let (sun2, ring1) = (
+        star.find("[[mesh]]\nname = \"sun2\""),
+        star.find("[[mesh]]\nname = \"ring1\""),
+    );
+    let (before, after) = (&star[..sun2.unwrap()], &star[ring1.unwrap()..]);
+    let (inside, outside) = after.split_at(after.find("name = \"ring2\"").unwrap());
+    let outside = outside.replace("internal = true", "internal = false");
+    let planet2 = "name = \"planet2\"\nspeed = ";
+    let before = before.replace(&format!("{planet2}-160.0"), &format!("{planet2}160.0"));
+    let found = warnings(&format!("{before}{inside}{outside}"));
+    assert_eq!(found.len(), 1, "{found:#?}");
+    for word in [
+        "ring1",
+        "\"ring.gear\" is a ring here",
+        "external gear in mesh \"ring2\"",
+        "a gear of their own",
+    ] {
+        assert!(found[0].contains(word), "`{word}` is not in {}", found[0]);
+    }
 }

@@ -285,7 +285,6 @@ fn keys_of_later_versions_say_so() {
             "contact = \"unilateral\"",
             "unilateral",
         ),
-        ("flank = 1", "flank = 1\ninternal = true", "internal"),
     ];
     let text = three_stage();
     for (from, to, word) in later {

@@ -7,13 +7,63 @@ mod support;
 use geartrain::config::Start;
 use geartrain::model::{BaseMotion, Inputs, ModalModel, equilibrium};
 use geartrain::simulation::Simulation;
-use support::{assembled, file_inputs, gear_pair, three_stage, valid};
+use support::{assembled, file_inputs, gear_pair, star, three_stage, valid};
 
 #[test]
 fn static_mesh_force_is_torque_over_base_radius() {
     // equations.md, section 6: two meshes share 2250 N m at a base radius of 0.1074069 m.
     let (text, exact) = (three_stage(), 2250.0 / 2.0 / 0.107_406_9);
     let found = equilibrium(&assembled(&text), &file_inputs(&text)).unwrap();
+    for force in found.mesh_forces {
+        assert!(
+            (force / exact - 1.0).abs() < 1e-9,
+            "{force} N, exact {exact} N; rounding"
+        );
+    }
+}
+
+/// The gear pair with rotor two as a ring of 60 teeth around the gear of rotor one.
+fn ring_pair(flank: &str) -> String {
+    let (before, two) = (
+        gear_pair(5, "law = \"constant\"\nmean = 4e8", "internal = true"),
+        "name = \"two\"",
+    );
+    let (one, rest) = before.split_once(two).unwrap();
+    let rest = rest
+        .replace(
+            "teeth = 24\nbase_radius = 0.07",
+            "teeth = 60\nbase_radius = 0.175",
+        )
+        .replace("speed = -150", "speed = 60")
+        .replace("value = 400", "value = -1000")
+        .replace("flank = 1", flank);
+    format!("{one}{two}{rest}")
+}
+
+#[test]
+fn the_static_force_in_a_ring_is_torque_over_base_radius() {
+    // Both flanks: T_a / R_a = 400 N m / 0.07 m, and the ring takes 1000 N m at 0.175 m.
+    for (flank, sign) in [("flank = 1", 1.0), ("flank = -1", -1.0)] {
+        let text = ring_pair(flank);
+        let found = equilibrium(&assembled(&text), &file_inputs(&text)).unwrap();
+        let exact = sign * 400.0 / 0.07;
+        assert!(
+            (found.mesh_forces[0] / exact - 1.0).abs() < 1e-9,
+            "{found:?}; rounding"
+        );
+        let [on_a, on_b] = valid(&text).train.meshes[0].line.loads(exact);
+        assert!((on_a.torque + 400.0).abs() < 1e-9 && (on_b.torque - 1000.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn planets_share_the_torque_of_the_sun_and_pass_it_to_the_ring() {
+    // Two planets opposite each other: F = T / (2 R_sun) in every mesh, tooth forces pass through an idler unchanged.
+    let text = star();
+    let loaded = valid(&text);
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let found = equilibrium(&assembled(&text), &file_inputs(&text)).unwrap();
+    let exact = 300.0 / (2.0 * 0.04);
     for force in found.mesh_forces {
         assert!(
             (force / exact - 1.0).abs() < 1e-9,

@@ -13,9 +13,11 @@ pub struct Mesh {
     pub center_angle: f64,
     /// Operating pressure angle [rad]. (0, pi/2)
     pub pressure_angle: f64,
+    /// Whether b is a ring around a.
+    pub internal: bool,
     /// Sign of the torque that drives a through the mesh.
     pub flank: Flank,
-    /// Mesh phase p0 at zero rotation angle, in tooth pitches; absent: 0, where geometry leaves it free.
+    /// Mesh phase p0 at zero rotation angle, in tooth pitches; absent: from geometry.
     pub phase: Option<f64>,
     /// Damping of the tooth contact.
     pub damping: MeshDamping,
@@ -25,6 +27,19 @@ pub struct Mesh {
     pub stiffness: MeshStiffness,
     /// Scales the stiffness law.
     pub stiffness_factor: f64,
+    /// Harmonics of the unloaded static transmission error.
+    pub transmission_error: Vec<ErrorHarmonic>,
+}
+
+/// `[[mesh.transmission_error]]`: amplitude cos(2 pi order p + phase), p the mesh phase.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ErrorHarmonic {
+    /// Periods per tooth pitch. [1, 100]
+    pub order: usize,
+    /// Amplitude [m]; positive is relief on the reference flank.
+    pub amplitude: f64,
+    /// Phase [rad].
+    pub phase: f64,
 }
 
 /// The flank that carries the load: the sign s of the torque that drives gear a through the mesh.

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use document::Lines;
-pub use mesh::{Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+pub use mesh::{ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Reading, read};
 pub use rotor::{

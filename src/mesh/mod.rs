@@ -115,6 +115,11 @@ impl LineOfAction {
         }
     }
 
+    /// Whether b is a ring around a.
+    pub fn is_internal(&self) -> bool {
+        self.radius_b < 0.0
+    }
+
     /// How delta depends on the motion of a and of b: the gradient with respect to (x, y, theta) of each.
     pub fn gradient(&self) -> [GearMotion; 2] {
         let [x, y] = self.normal;
@@ -222,7 +227,7 @@ mod tests {
     #[test]
     fn the_opposite_flank_is_the_one_built_with_the_other_sign() {
         for (pair, psi) in pairs() {
-            let ring = pair.radius_b < 0.0;
+            let ring = pair.is_internal();
             let kind = if ring {
                 LineOfAction::internal
             } else {

@@ -19,7 +19,7 @@ pub struct TransmissionError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorHarmonic {
     /// Periods per tooth pitch. >= 1
-    pub order: u32,
+    pub order: usize,
     /// Amplitude [m].
     pub amplitude: f64,
     /// Phase at mesh phase 0 [rad].
@@ -29,13 +29,13 @@ pub struct ErrorHarmonic {
 impl TransmissionError {
     /// The sum of harmonics; several of one order add up.
     pub fn new(harmonics: &[ErrorHarmonic]) -> TransmissionError {
-        let highest = harmonics.iter().map(|one| one.order).max().unwrap_or(0) as usize;
+        let highest = harmonics.iter().map(|one| one.order).max().unwrap_or(0);
         let (mut cosine, mut sine) = (vec![0.0; highest], vec![0.0; highest]);
         for harmonic in harmonics {
             // A cos(x + f) = A cos f cos x - A sin f sin x
             let (s, c) = libm::sincos(harmonic.phase);
-            cosine[harmonic.order as usize - 1] += harmonic.amplitude * c;
-            sine[harmonic.order as usize - 1] -= harmonic.amplitude * s;
+            cosine[harmonic.order - 1] += harmonic.amplitude * c;
+            sine[harmonic.order - 1] -= harmonic.amplitude * s;
         }
         TransmissionError {
             series: FourierSeries::new(&cosine, &sine),
@@ -74,11 +74,11 @@ mod tests {
                 phase,
             }));
         for p in [0.0, 0.37, 5.9, -2.2] {
-            let angle = |order: u32, phase: f64| TAU * f64::from(order) * p + phase;
+            let angle = |order: usize, phase: f64| TAU * order as f64 * p + phase;
             let (mut value, mut slope) = (0.0, 0.0);
             for (order, amplitude, phase) in harmonics {
                 value += amplitude * libm::cos(angle(order, phase));
-                slope -= TAU * f64::from(order) * amplitude * libm::sin(angle(order, phase));
+                slope -= TAU * order as f64 * amplitude * libm::sin(angle(order, phase));
             }
             // Rounding of angles up to 100 rad.
             assert!((error.value(p) - value).abs() < 1e-13 * 5e-6 * 10.0);

@@ -2,15 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use super::laws::{check_stiffness, stiffness_law};
+use super::laws::{MOST_HARMONICS, check_stiffness, stiffness_law};
 use super::rules::Rules;
-use super::speeds::{spread, transmissions};
-use super::{GearAddress, Mesh, Rotor};
-use crate::config::{self, Config, MeshDamping, Place, Problem};
-use crate::mesh::{LineOfAction, pair_damping};
-
-/// Highest mesh frequency [Hz]: a step ends at every breakpoint of the stiffness.
-const FASTEST_MESH: f64 = 1e6;
+use super::{Gear, GearAddress, GearTrain, Mesh, Rotor};
+use crate::config::{self, MeshDamping, Place, Problem};
+use crate::mesh::{ErrorHarmonic, LineOfAction, TransmissionError, pair_damping};
 
 /// Checks a mesh; `None` when something is wrong with it, which becomes problems.
 pub(super) fn resolve_mesh(
@@ -32,6 +28,8 @@ pub(super) fn resolve_mesh(
         MeshDamping::Ratio(ratio) => rules.not_negative("damping_ratio", ratio, ""),
         MeshDamping::Coefficient(damping) => rules.not_negative("damping", damping, "N s/m"),
     }
+    check_transmission_error(place, &mesh.transmission_error, problems);
+    let mut rules = Rules { place, problems };
     let gears = [0, 1].map(|side| find_gear(&mut rules, &mesh.gears[side], rotors));
     check_stiffness(&place.table("stiffness"), &mesh.stiffness, problems);
     let [Some(a), Some(b)] = gears else {
@@ -42,10 +40,11 @@ pub(super) fn resolve_mesh(
         let (one, two) = (&mesh.gears[0], &mesh.gears[1]);
         format!("must be on two different rotors, found \"{one}\" and \"{two}\"")
     });
-    let sizes = [a, b].map(|address| {
-        let gear = &rotors[address.rotor].gears[address.gear];
-        (gear.base_radius, gear.body.polar_inertia)
-    });
+    let pair = [a, b].map(|address| &rotors[address.rotor].gears[address.gear]);
+    if mesh.internal {
+        check_ring(&mut rules, pair);
+    }
+    let sizes = pair.map(|gear| (gear.base_radius, gear.body.polar_inertia));
     if matches!(mesh.damping, MeshDamping::Ratio(ratio) if ratio > 0.0) {
         rules.ensure(
             "damping_ratio",
@@ -71,13 +70,18 @@ fn build_mesh(
             pair_damping(ratio, mesh.stiffness_factor * stiffness.mean(), sizes)
         }
     };
+    let line = if mesh.internal {
+        LineOfAction::internal
+    } else {
+        LineOfAction::external
+    };
     let rotor_a = &rotors[gears[0].rotor];
-    // p = s z_a phi_a / 2 pi + p0
+    // p = s z_a phi_a / 2 pi + p0; p0 is added when all meshes are known.
     let pitches = s * f64::from(rotor_a.gears[gears[0].gear].teeth) / TAU;
     Mesh {
         name: mesh.name.clone(),
         gears,
-        line: LineOfAction::external(
+        line: line(
             mesh.center_angle,
             mesh.pressure_angle,
             s,
@@ -88,9 +92,82 @@ fn build_mesh(
         stiffness,
         stiffness_factor: mesh.stiffness_factor,
         damping,
-        start_phase: pitches * rotor_a.angle + mesh.phase.unwrap_or(0.0),
+        transmission_error: transmission_error(&mesh.transmission_error),
+        start_phase: pitches * rotor_a.angle,
         phase_rate: pitches * rotor_a.speed,
     }
+}
+
+/// A ring has room for the gear inside it.
+fn check_ring(rules: &mut Rules<'_>, [a, b]: [&Gear; 2]) {
+    // A number that could not be read (0, NaN) has its problem already.
+    rules.ensure("gears", b.teeth > a.teeth || b.teeth == 0, || {
+        format!(
+            "with internal = true the second gear is the ring and must have more teeth than the first, found \
+             {} : {}; swap the two (center_angle and flank belong to the first), or give other tooth numbers",
+            a.teeth, b.teeth
+        )
+    });
+    let too_small = b.base_radius <= a.base_radius && b.teeth > a.teeth;
+    rules.ensure("gears", !too_small, || {
+        format!(
+            "with internal = true the base radius of the second gear, the ring, must be greater than that of \
+             the first, found {} m and {} m",
+            b.base_radius, a.base_radius
+        )
+    });
+}
+
+/// Warns of rings that have a mesh on the outside too: those teeth would need a base circle of their own.
+pub(super) fn rings_meshed_from_outside(train: &GearTrain) -> Vec<Problem> {
+    let mut warnings = Vec::new();
+    for (index, mesh) in train.meshes.iter().enumerate() {
+        let ring = mesh.gears[1];
+        let outside = train.meshes.iter().find(|other| {
+            other.gears[0] == ring || (other.gears[1] == ring && !other.line.is_internal())
+        });
+        if let (true, Some(other)) = (mesh.line.is_internal(), outside) {
+            let place = Place::root().element("mesh", index, Some(&mesh.name));
+            let message = format!(
+                "gears: \"{}\" is a ring here and an external gear in mesh \"{}\": give its outer teeth a gear of \
+                 their own on that rotor",
+                train.gear_name(ring),
+                other.name
+            );
+            warnings.push(place.problem("gears", message));
+        }
+    }
+    warnings
+}
+
+fn check_transmission_error(
+    mesh: &Place,
+    harmonics: &[config::ErrorHarmonic],
+    problems: &mut Vec<Problem>,
+) {
+    for (index, harmonic) in harmonics.iter().enumerate() {
+        let place = mesh.element("transmission_error", index, None);
+        let mut rules = Rules {
+            place: &place,
+            problems,
+        };
+        let order = harmonic.order;
+        rules.ensure("order", (1..=MOST_HARMONICS).contains(&order), || {
+            format!("must be from 1 (once per tooth) to {MOST_HARMONICS}, found {order}")
+        });
+        rules.finite("amplitude", harmonic.amplitude);
+        rules.finite("phase", harmonic.phase);
+    }
+}
+
+fn transmission_error(harmonics: &[config::ErrorHarmonic]) -> TransmissionError {
+    let convert = |one: &config::ErrorHarmonic| ErrorHarmonic {
+        order: one.order,
+        amplitude: one.amplitude,
+        phase: one.phase,
+    };
+    let harmonics: Vec<ErrorHarmonic> = harmonics.iter().map(convert).collect();
+    TransmissionError::new(&harmonics)
 }
 
 fn find_gear(rules: &mut Rules<'_>, address: &str, rotors: &[Rotor]) -> Option<GearAddress> {
@@ -118,74 +195,4 @@ fn find_gear(rules: &mut Rules<'_>, address: &str, rotors: &[Rotor]) -> Option<G
         )
     });
     found
-}
-
-/// Speeds must fit the tooth numbers, around loops too, and no mesh may be too fast.
-pub(super) fn check_speeds(
-    root: &Place,
-    rotors: &[Rotor],
-    meshes: &[Mesh],
-    problems: &mut Vec<Problem>,
-) {
-    let teeth = |address: GearAddress| rotors[address.rotor].gears[address.gear].teeth;
-    let transmissions = transmissions(rotors, meshes);
-    for (index, (mesh, transmission)) in meshes.iter().zip(&transmissions).enumerate() {
-        let [a, b] = transmission.rotors.map(|rotor| &rotors[rotor]);
-        let expected = a.speed * transmission.ratio;
-        if (b.speed - expected).abs() > 1e-6 * expected.abs().max(b.speed.abs()) {
-            let place = root.element("mesh", index, Some(&mesh.name));
-            let message = format!(
-                "gears: {} : {} teeth ask for a speed of {expected} rad/s of rotor \"{}\" (that of \
-                 \"{}\" is {} rad/s), found {} rad/s",
-                teeth(mesh.gears[0]),
-                teeth(mesh.gears[1]),
-                b.name,
-                a.name,
-                a.speed,
-                b.speed
-            );
-            problems.push(place.problem("gears", message));
-        }
-    }
-    for (index, mesh) in meshes.iter().enumerate() {
-        if mesh.phase_rate.abs() > FASTEST_MESH {
-            let place = root.element("mesh", index, Some(&mesh.name));
-            let rate = mesh.phase_rate.abs();
-            let message = format!(
-                "gears: their teeth pass with {rate} Hz, at most {FASTEST_MESH} Hz can be followed"
-            );
-            problems.push(place.problem("gears", message));
-        }
-    }
-    for contradiction in spread(rotors.len(), &transmissions).1 {
-        let index = contradiction.transmission;
-        let place = root.element("mesh", index, Some(&meshes[index].name));
-        let message = format!(
-            "gears: closes a loop of meshes with the ratio {}, the other way around it is {}; this \
-             train cannot turn",
-            transmissions[index].ratio, contradiction.other_ratio
-        );
-        problems.push(place.problem("gears", message));
-    }
-}
-
-/// A phase may be left out only where nothing ties it to another mesh.
-pub(super) fn check_phases(config: &Config, meshes: &[Mesh], problems: &mut Vec<Problem>) {
-    for (index, mesh) in config.meshes.iter().enumerate() {
-        let shared = meshes[..index].iter().find(|other| {
-            other
-                .gears
-                .iter()
-                .any(|gear| meshes[index].gears.contains(gear))
-        });
-        if let (None, Some(other)) = (mesh.phase, shared) {
-            let place = Place::root().element("mesh", index, Some(&mesh.name));
-            let message = format!(
-                "phase: missing; mesh \"{}\" is on the same gear, and phases from geometry are not \
-                 available yet",
-                other.name
-            );
-            problems.push(place.problem("phase", message));
-        }
-    }
 }

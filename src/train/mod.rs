@@ -9,6 +9,7 @@ mod bearings;
 mod laws;
 mod meshes;
 mod names;
+mod phases;
 mod rotors;
 mod rules;
 mod speeds;
@@ -18,7 +19,7 @@ use crate::config::{
     self, BasisModes, BasisSupport, Bow, Config, Disk, GearboxVibration, Lines, Material, Probe,
     Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
-use crate::mesh::{LineOfAction, StiffnessLaw};
+use crate::mesh::{LineOfAction, StiffnessLaw, TransmissionError};
 
 pub use bearings::{Bearing, BearingLaw, CoefficientCurves, Coefficients};
 pub use rotors::SAME_PLACE;
@@ -140,6 +141,8 @@ pub struct Mesh {
     pub stiffness_factor: f64,
     /// Damping c [N s/m].
     pub damping: f64,
+    /// Deviation of the unloaded teeth from perfect ones.
+    pub transmission_error: TransmissionError,
     /// Phase at time 0, rotation angle of gear a included [pitches].
     pub start_phase: f64,
     /// Change of the phase: signed mesh frequency [pitches/s].

@@ -4,9 +4,11 @@
 //! finds everything.
 
 use super::basis::{check_basis, resolve_basis};
-use super::meshes::{check_phases, check_speeds, resolve_mesh};
+use super::meshes::{resolve_mesh, rings_meshed_from_outside};
+use super::phases;
 use super::rotors::resolve_rotor;
 use super::rules::Rules;
+use super::speeds::{check_speeds, unequal_base_pitches};
 use super::{GearTrain, names, speed_ratios};
 use crate::config::{self, Config, Place, Problem};
 
@@ -48,13 +50,12 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
         meshes.extend(resolve_mesh(&place, mesh, &rotors, &mut problems));
     }
     if problems.is_empty() {
-        check_speeds(&root, &rotors, &meshes, &mut problems);
-        check_phases(config, &meshes, &mut problems);
+        check_speeds(&rotors, &meshes, &mut problems);
     }
     if !problems.is_empty() {
         return Err(problems);
     }
-    let train = GearTrain {
+    let mut train = GearTrain {
         name: config.name.clone(),
         description: config.description.clone(),
         simulation: config.simulation.clone(),
@@ -63,7 +64,10 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
         meshes,
         gearbox_vibration: config.gearbox_vibration,
     };
-    let mut warnings = unbalanced_torques(&train);
+    let mut warnings = phases::settle(config, &mut train);
+    warnings.extend(rings_meshed_from_outside(&train));
+    warnings.extend(unequal_base_pitches(&train));
+    warnings.extend(unbalanced_torques(&train));
     warnings.extend(bows_without_force(&train));
     Ok((train, warnings))
 }

@@ -20,6 +20,12 @@ pub fn compound() -> String {
     std::fs::read_to_string(path).expect("the model is part of the repository")
 }
 
+/// A sun, two planets on a fixed carrier and the ring around them.
+pub fn star() -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/star.toml");
+    std::fs::read_to_string(path).expect("the model is part of the repository")
+}
+
 /// The example with gearbox vibration and large imbalance: case 4 of the paper.
 pub fn case_four() -> String {
     three_stage()

@@ -1,12 +1,9 @@
 //! `[[mesh]]` with its stiffness law.
 
 use super::super::document::Table;
-use super::super::{Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+use super::super::{ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 
 pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
-    if table.boolean_or("internal", false) {
-        table.not_yet("internal", "an internal gear (internal = true)");
-    }
     if table.choice(
         "contact",
         Some(true),
@@ -19,7 +16,6 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
         let message = "must be 0 with bilateral contact (unilateral contact is not available yet)";
         table.problem("backlash", message);
     }
-    table.not_yet("transmission_error", "transmission error");
     let consistent = TorqueCoupling::Consistent;
     let couplings = [
         ("consistent", consistent),
@@ -30,6 +26,7 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
         gears: table.pair_of_strings("gears"),
         center_angle: table.number("center_angle"),
         pressure_angle: table.number("pressure_angle"),
+        internal: table.boolean_or("internal", false),
         flank: flank(&table),
         phase: table.optional_number("phase"),
         damping: mesh_damping(&table),
@@ -38,9 +35,24 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
             .unwrap_or(consistent),
         stiffness: mesh_stiffness(&table),
         stiffness_factor: 1.0,
+        transmission_error: table
+            .tables("transmission_error")
+            .into_iter()
+            .map(error_harmonic)
+            .collect(),
     };
     table.finish();
     mesh
+}
+
+fn error_harmonic(table: Table<'_, '_>) -> ErrorHarmonic {
+    let harmonic = ErrorHarmonic {
+        order: table.count("order"),
+        amplitude: table.number("amplitude"),
+        phase: table.number_or("phase", 0.0),
+    };
+    table.finish();
+    harmonic
 }
 
 fn flank(table: &Table<'_, '_>) -> Flank {

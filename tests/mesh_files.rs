@@ -301,11 +301,11 @@ fn phases_that_geometry_alone_does_not_give_are_warned_of() {
 
 #[test]
 fn teeth_of_different_base_pitch_and_rings_meshed_from_outside_are_warned_of() {
-    let found = warnings(&star().replace("base_radius = 0.14", "base_radius = 0.15"));
+    let found = warnings(&star().replace("base_radius = 0.14", "base_radius = 0.1401"));
     assert_eq!(found.len(), 2, "{found:#?}");
     for word in [
         "ring1",
-        "0.05 m and 0.15 m",
+        "0.05 m and 0.1401 m",
         "25 : 70 teeth",
         "do not fit",
         "change a base_radius",
@@ -332,5 +332,47 @@ fn teeth_of_different_base_pitch_and_rings_meshed_from_outside_are_warned_of() {
         "a gear of their own",
     ] {
         assert!(found[0].contains(word), "`{word}` is not in {}", found[0]);
+    }
+}
+
+#[test]
+fn loops_whose_centres_do_not_close_are_warned_of() {
+    // Planet 2 a quarter turn away from the place that the ring has for it.
+    let star = star();
+    let (before, sun2) = star.split_at(star.find("name = \"sun2\"").unwrap());
+    let turned = sun2.replacen(
+        "center_angle = 3.141592653589793",
+        "center_angle = 1.5707963267948966",
+        1,
+    );
+    let found = warnings(&format!("{before}{turned}"));
+    assert_eq!(found.len(), 1, "{found:#?}");
+    for word in [
+        "mesh \"ring2\": center_angle",
+        "\"ring.gear\"",
+        "0.096164 m at 0.000000 rad",
+        "\"planet2.gear\"",
+        "at -1.57",
+        "around the loop",
+    ] {
+        assert!(found[0].contains(word), "`{word}` is not in {}", found[0]);
+    }
+    one_message(
+        &about(&gear_pair(3, LAW, "").replace("center_angle = 0.3", "center_angle = 1e9")),
+        &["center_angle", "within -1000 and 1000", "found 1000000000"],
+    );
+}
+
+#[test]
+fn flanks_that_the_torques_pull_apart_are_warned_of_in_rings_too() {
+    let package =
+        geartrain::package::Package::of(&star().replace("flank = -1", "flank = 1")).unwrap();
+    let found: Vec<String> = package.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(found.len(), 2, "{found:#?}");
+    for (message, mesh) in found.iter().zip(["ring1", "ring2"]) {
+        assert!(
+            message.contains(mesh) && message.contains("pulls this flank apart"),
+            "{message}"
+        );
     }
 }

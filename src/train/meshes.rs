@@ -8,6 +8,9 @@ use super::{Gear, GearAddress, GearTrain, Mesh, Rotor};
 use crate::config::{self, MeshDamping, Place, Problem};
 use crate::mesh::{ErrorHarmonic, LineOfAction, TransmissionError, pair_damping};
 
+/// Larger angles leave too few digits for phases that follow from them [rad].
+const LARGEST_ANGLE: f64 = 1e3;
+
 /// Checks a mesh; `None` when something is wrong with it, which becomes problems.
 pub(super) fn resolve_mesh(
     place: &Place,
@@ -17,7 +20,10 @@ pub(super) fn resolve_mesh(
 ) -> Option<Mesh> {
     let before = problems.len();
     let mut rules = Rules { place, problems };
-    rules.finite("center_angle", mesh.center_angle);
+    let angle = mesh.center_angle;
+    rules.ensure("center_angle", angle.abs() <= LARGEST_ANGLE, || {
+        format!("must be within -{LARGEST_ANGLE} and {LARGEST_ANGLE} rad, found {angle}")
+    });
     rules.pressure_angle(mesh.pressure_angle);
     let phase = mesh.phase.unwrap_or(0.0);
     rules.ensure("phase", phase.abs() <= 1e6, || {

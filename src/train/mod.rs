@@ -6,6 +6,7 @@
 
 mod basis;
 mod bearings;
+mod centres;
 mod laws;
 mod meshes;
 mod names;

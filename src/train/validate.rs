@@ -4,6 +4,7 @@
 //! finds everything.
 
 use super::basis::{check_basis, resolve_basis};
+use super::centres::open_loops;
 use super::meshes::{resolve_mesh, rings_meshed_from_outside};
 use super::phases;
 use super::rotors::resolve_rotor;
@@ -66,6 +67,7 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
     };
     let mut warnings = phases::settle(config, &mut train);
     warnings.extend(rings_meshed_from_outside(&train));
+    warnings.extend(open_loops(&train));
     warnings.extend(unequal_base_pitches(&train));
     warnings.extend(unbalanced_torques(&train));
     warnings.extend(bows_without_force(&train));

@@ -1,19 +1,21 @@
-//! One shaft reduced to its vibration modes, with nothing of its equations lost on them.
+//! One shaft reduced to its vibration modes and static shapes, with nothing of its equations lost on them.
 //!
 //! ```text
 //!   one plane   (K_s + K_xx + K_sup) phi = w^2 M phi         torsion   (K_T + K_sup,t) phi_t = w_t^2 J phi_t
 //!   x = Phi A,  y = Phi B,  th = Phi_t A_t                   mass normalised; paper (7)-(12)
 //!
-//!   A''   + [L^2 - Phi'K_sup Phi] A + Phi'C_xx Phi A' + Phi'C_xy Phi B' + Om Phi'G Phi B' + Phi'K_xy Phi B = ...
+//!   A''   + [L^2 - Phi'K_sup Phi] A + Phi'C_xx Phi A' + Phi'C_xy Phi B' + Om Phi'G Phi B' + Om' Phi'G Phi B
+//!         + Phi'K_xy Phi B = Phi'K_s r cos(phi + psi) + ...
 //!   B''   + [L^2 - Phi'K_sup Phi + Phi'(K_yy-K_xx)Phi] B + Phi'C_yy Phi B' + Phi'C_yx Phi A'
-//!                                                        - Om Phi'G Phi A' + Phi'K_yx Phi A = ...
+//!         - Om Phi'G Phi A' - Om' Phi'G Phi A + Phi'K_yx Phi A = Phi'K_s r sin(phi + psi) + ...
 //!   A_t'' + Phi_t'C_T Phi_t A_t' + [L_t^2 - Phi_t'K_sup,t Phi_t] A_t = ...
 //! ```
 //!
 //! paper (13)-(15) with the corrections of `docs/errata.md`. K_sup, the paper's nominal gear support, is
 //! a device for the basis and subtracted again. Both planes share the modes computed with K_xx; the rest
-//! K_yy - K_xx stays as a term. Modal damping is C = M V diag(2 zeta w) V' M over all modes V of the
-//! finite-element model. Knows one rotor; knows no mesh and no time.
+//! K_yy - K_xx stays as a term. Static shapes stand in Phi like modes, with their own w^2. Modal damping is
+//! C = M V diag(2 zeta w) V' M over all modes V of the finite-element model. Knows one rotor; knows no mesh and
+//! no time.
 
 mod basis;
 mod bow;

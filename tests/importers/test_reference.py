@@ -1,4 +1,4 @@
-"""The packed FMUs against an independent implementation of the same equations (reference.py)."""
+"""The packed FMUs against an independent implementation of the same equations (reference/)."""
 
 from pathlib import Path
 

@@ -7,7 +7,7 @@ mod support;
 use geartrain::config::Start;
 use geartrain::model::{BaseMotion, Inputs, ModalModel, equilibrium};
 use geartrain::simulation::Simulation;
-use support::{assembled, file_inputs, gear_pair, star, three_stage, valid};
+use support::{assembled, compound, file_inputs, gear_pair, star, three_stage, valid};
 
 #[test]
 fn static_mesh_force_is_torque_over_base_radius() {
@@ -68,6 +68,69 @@ fn planets_share_the_torque_of_the_sun_and_pass_it_to_the_ring() {
         assert!(
             (force / exact - 1.0).abs() < 1e-9,
             "{force} N, exact {exact} N; rounding"
+        );
+    }
+}
+
+#[test]
+fn a_compound_shaft_passes_its_torque_from_gear_to_gear() {
+    // 120 N m at 0.04 m; 120 x 50/20 = 300 N m on the middle shaft, at 0.045 m on its small gear.
+    let text = compound();
+    let found = equilibrium(&assembled(&text), &file_inputs(&text)).unwrap();
+    for (force, exact) in found.mesh_forces.iter().zip([120.0 / 0.04, 300.0 / 0.045]) {
+        assert!(
+            (force / exact - 1.0).abs() < 1e-9,
+            "{force} N, exact {exact} N; rounding"
+        );
+    }
+}
+
+#[test]
+fn a_long_chain_of_idlers_carries_one_force() {
+    // Twelve equal gears in a row: the torque of the first and that of the last balance, T / R in every mesh.
+    let text = gear_pair(3, "law = \"constant\"\nmean = 4e8", "");
+    let starts: Vec<usize> = text.match_indices("[[rotor]]").map(|(at, _)| at).collect();
+    let (one, two) = (&text[starts[0]..starts[1]], &text[starts[1]..]);
+    let (two, mesh) = two.split_at(two.find("[[mesh]]").unwrap());
+    let idler = one.replace("value = 400", "value = 0");
+    let mut chain = text[..starts[0]].to_string() + one;
+    for index in 1..11 {
+        let speed = if index % 2 == 1 {
+            "speed = -150"
+        } else {
+            "speed = 150"
+        };
+        let name = format!("name = \"idler{index}\"");
+        chain += &idler
+            .replace("name = \"one\"", &name)
+            .replace("speed = 150", speed);
+    }
+    chain += two; // the twelfth turns backwards like the second
+    let name = |index: usize| match index {
+        0 => "one".to_string(),
+        11 => "two".to_string(),
+        _ => format!("idler{index}"),
+    };
+    for index in 0..11 {
+        let (gears, flank) = (
+            format!("\"{}.gear\", \"{}.gear\"", name(index), name(index + 1)),
+            if index % 2 == 0 {
+                "flank = 1\n"
+            } else {
+                "flank = -1\n"
+            },
+        );
+        chain += &mesh
+            .replace("\"mesh\"", &format!("\"mesh{index}\""))
+            .replace("\"one.gear\", \"two.gear\"", &gears)
+            .replace("flank = 1\n", flank);
+    }
+    let found = equilibrium(&assembled(&chain), &file_inputs(&chain)).unwrap();
+    assert_eq!(found.mesh_forces.len(), 11);
+    for force in found.mesh_forces {
+        assert!(
+            (force / (400.0 / 0.07) - 1.0).abs() < 1e-9,
+            "{force} N; rounding"
         );
     }
 }

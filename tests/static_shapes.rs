@@ -4,16 +4,12 @@
 
 mod support;
 
-use std::f64::consts::TAU;
-
 use geartrain::config::BasisModes;
-use geartrain::interface::{Interface, Variable};
 use geartrain::linalg::natural_modes;
-use geartrain::model::ModalModel;
 use geartrain::rotor::{FiniteElements, ModalRotor, ModeCounts};
 use geartrain::train::{Basis, Rotor};
-use nalgebra::{Complex, DMatrix, DVector, Normed};
-use support::{assembled, gear_pair, head, started, steady_amplitude, valid};
+use nalgebra::{DMatrix, DVector};
+use support::{head, valid};
 
 /// A shaft with two gears, two uneven bearings, a torque off the gears, and `extra` on it.
 fn shaft(bearings: &str, extra: &str) -> Rotor {
@@ -306,6 +302,35 @@ fn neighbours_give_independent_shapes_and_exact_statics() {
 }
 
 #[test]
+fn softly_held_shafts_bend_as_stiffly_held_ones_do() {
+    // On two bearings the bending under a load at a gear, seen from the line through the bearings, does not depend on
+    // how stiff they are; the shaft as a whole moves 1e-9 / k of it.
+    let bending = |stiffness: &str| {
+        let bearings = CROSSED.replace("xx = 8e7, yy = 5e7, xy = 2e7, yx = -3e7", "xx = 3e8");
+        let rotor = shaft(
+            &bearings.replace("xx = 3e8", &format!("xx = {stiffness}")),
+            "",
+        );
+        let modal = reduced(&rotor, &basis(2, 1), None);
+        assert_eq!(modal.counts().lateral, 2 + 4, "{stiffness} N/m");
+        let row = |position| DVector::from_vec(modal.lateral_row(position));
+        let relative = row(0.61) - row(0.05) * (0.17 / 0.73) - row(0.78) * (0.56 / 0.73);
+        let plane = modal.lateral_stiffness.view((0, 0), (6, 6)).into_owned();
+        relative.dot(&plane.lu().solve(&row(0.61)).unwrap())
+    };
+    let exact = bending("1e9");
+    for (stiffness, tolerance) in [("1e6", 1e-9), ("1e3", 1e-8), ("1.0", 1e-6), ("1e-3", 1e-2)] {
+        // 1e-16 of a motion of 1 / k beside a bending of 1e-9 m; 1e-3 N/m is 1e-13 of the shaft's own stiffness.
+        let found = bending(stiffness);
+        assert!(
+            (found / exact - 1.0).abs() < tolerance,
+            "{stiffness}: {:e}",
+            found / exact - 1.0
+        );
+    }
+}
+
+#[test]
 fn changed_parameters_keep_the_numbers_of_modes_and_shapes() {
     let rotor = shaft(CROSSED, "");
     let counts = reduced(&rotor, &basis(4, 2), None).counts();
@@ -334,67 +359,4 @@ fn changed_parameters_keep_the_numbers_of_modes_and_shapes() {
         ..most
     };
     assert!(ModalRotor::reduce(&rotor, &basis(4, 2), Some(more)).is_err());
-}
-
-#[test]
-fn a_train_without_a_basis_lists_its_modes_and_runs_with_static_shapes() {
-    let text = gear_pair(1, "law = \"constant\"\nmean = 4e8", "")
-        .replace("[basis]\nlateral_modes = 1\ntorsional_modes = 1\n", "");
-    let loaded = valid(&text);
-    let model = ModalModel::assemble(&loaded.train, None).unwrap();
-    let counts = model.rotors[0].counts;
-    assert_eq!(
-        (
-            counts.lateral - counts.lateral_modes,
-            counts.torsional - counts.torsional_modes
-        ),
-        (3, 2),
-        "two bearings and a gear, a gear and a torque"
-    );
-    let interface = Interface::of(&loaded.config, &loaded.train, &model);
-    let count = |prefix: &str| {
-        let named = |variable: &&Variable| variable.name.starts_with(prefix);
-        interface.variables.iter().filter(named).count()
-    };
-    assert_eq!(count("one.lateral_frequency["), counts.lateral_modes);
-    assert_eq!(count("one.modal.x["), counts.lateral);
-    // The rigid rotation has a name of its own and no frequency.
-    assert_eq!(
-        count("one.torsional_frequency["),
-        counts.torsional_modes - 1
-    );
-    assert_eq!(count("one.modal.theta["), counts.torsional - 1);
-    let described = |name: &str| {
-        let variable = interface.variables.iter().find(|one| one.name == name);
-        variable.unwrap().description.clone()
-    };
-    let first = counts.lateral_modes + 1;
-    assert!(described(&format!("one.modal.y[{first}]")).contains("static shape 1"));
-
-    started(&text, 1e-3).advance_to(0.002).unwrap();
-}
-
-#[test]
-fn static_shapes_carry_the_response_below_the_highest_mode() {
-    // Mesh deflection per torque at 300 Hz, modes kept to 1000 Hz: against all modes.
-    let pair = |basis: &str| {
-        let counts = "lateral_modes = 1\ntorsional_modes = 1\n";
-        assembled(&gear_pair(1, "law = \"constant\"\nmean = 4e8", "").replace(counts, basis))
-    };
-    let response = |model: &ModalModel| {
-        let load = model.rotors[0].torques[0].to_dense(model.system.size);
-        let none = vec![0.0; model.system.size];
-        let amplitude = steady_amplitude(model, 300.0 * TAU, &load, &none);
-        let row = model.meshes[0].row.to_dense(model.system.size);
-        let along = row.iter().zip(amplitude.iter());
-        along.map(|(&w, &q)| q * w).sum::<Complex<f64>>()
-    };
-    let exact = response(&pair("lateral_modes = 18\ntorsional_modes = 9\n"));
-    let error = |basis: &str| (response(&pair(basis)) - exact).norm() / exact.norm();
-    let (with, without) = (
-        error("max_frequency = 1e3\nstatic_shapes = true\n"),
-        error("max_frequency = 1e3\n"),
-    );
-    // Measured 7e-7 and 2e-2: what is left grows with (300 Hz / frequency of the shapes)^2.
-    assert!(with < 1e-5 && without > 1e-2, "{with:e}, {without:e}");
 }

@@ -25,7 +25,12 @@ pub(super) struct Elastic {
     pub(super) modes: Modes,
     /// Modes without them; `None`: there are no supports.
     unsupported: Option<Modes>,
+    /// How many motions have no strain in the shaft: shift and tilt, or the rotation.
+    strainless: usize,
 }
+
+/// Below this part of the w^2 of the first mode that must strain the shaft, a mode hardly does: soft bearings hold it.
+const SOFT: f64 = 1e-4;
 
 impl Elastic {
     /// One plane of a rotor, with the direct bearing stiffness K_xx at its mean speed.
@@ -83,12 +88,25 @@ impl Elastic {
             mass: mass.clone(),
             stiffness,
             supported,
+            strainless: strainless.ncols(),
         })
     }
 
     /// The modes without the supports.
     pub(super) fn unsupported(&self) -> &Modes {
         self.unsupported.as_ref().unwrap_or(&self.modes)
+    }
+
+    /// How many of the first of these modes, with or without the supports, have no strain in the shaft or hardly any.
+    pub(super) fn soft_count(&self, modes: &Modes) -> usize {
+        let squared = &modes.squared_frequencies;
+        let straining = squared.get(self.strainless).copied().unwrap_or(0.0);
+        let soft = |w2: &&f64| **w2 <= SOFT * straining;
+        squared
+            .iter()
+            .take(self.strainless)
+            .take_while(soft)
+            .count()
     }
 }
 

@@ -2,18 +2,19 @@
 //!
 //! ```text
 //!   K x_j = f_j                                        unit load at a gear, a bearing, a torque
-//!   (K + s M R R'M) x_j = (I - M R R') f_j             on a shaft that moves without strain, R: inertia relief
+//!   (K + s M R R'M) x_j = (I - M R R') f_j             R: modes with hardly any strain; inertia relief
 //!   x_j <- x_j - Phi Phi'M x_j                         what the modes have is taken out
 //!   X U, (X'K_b X) U = (X'M X) U diag(w^2)             so that M = I and K_b diagonal again, K_b = K + K_sup
 //! ```
 //!
 //! With them every static stiffness between the loaded stations is exact, however few modes are kept; they cannot
-//! replace a missing mode at its frequency. K has no basis supports: the statics are those of the real shaft. The
-//! strainless motions R belong to the statics too; they are added where supports have bent them out of the modes.
+//! replace a missing mode at its frequency. K has no basis supports: the statics are those of the real shaft. R holds the
+//! motions of a free or softly held shaft, beside which its bending would drown in rounding; they belong to the statics
+//! too, and are added where supports have bent them out of the modes.
 //!
 //! Shapes depend on each other where stations are neighbours, or where the modes are nearly complete. They are
 //! chosen one by one, always the one with the largest part that is not there yet, measured by energy
-//! <x, x> = x'(K_b + s M) x, s = lowest elastic w^2 (residual flexibility: MacNeal, Computers & Structures 1 (1971);
+//! <x, x> = x'(K_b + s M) x, s = w^2 of the first mode beyond R (residual flexibility: MacNeal, Computers & Structures 1 (1971);
 //! Rubin, AIAA J. 13 (1975)).
 
 use nalgebra::{DMatrix, DVector};
@@ -109,21 +110,21 @@ pub(super) fn static_shapes(
     Some(diagonalised(&elastic.mass, shift, &chosen))
 }
 
-/// The strainless motions and the deflections under the unit loads.
+/// R and the deflections under the unit loads.
 fn deflections(elastic: &Elastic, shift: f64, loads: &[usize]) -> Option<Vec<DVector<f64>>> {
-    let free = elastic.unsupported();
-    let rigid = free.shapes.columns(0, free.rigid_count());
-    let carried = &elastic.mass * rigid; // M R
+    let real = elastic.unsupported();
+    let soft = real.shapes.columns(0, elastic.soft_count(real));
+    let carried = &elastic.mass * soft; // M R
     let held = &elastic.stiffness + shift * &carried * carried.transpose();
     let factor = held.cholesky()?;
-    let mut shapes: Vec<DVector<f64>> = rigid
+    let mut shapes: Vec<DVector<f64>> = soft
         .column_iter()
         .map(nalgebra::Matrix::into_owned)
         .collect();
     for &load in loads {
         let mut force = DVector::zeros(elastic.mass.nrows());
         force[load] = 1.0;
-        force -= &carried * rigid.row(load).transpose();
+        force -= &carried * soft.row(load).transpose();
         factor.solve_mut(&mut force);
         shapes.push(force);
     }

@@ -25,10 +25,15 @@ mod fourier;
 mod gauss;
 mod stiffness;
 mod table;
+mod tooth_geometry;
 mod tooth_pair;
 mod transmission_error;
 
 pub use stiffness::StiffnessLaw;
+pub use tooth_geometry::{
+    FITTED_BODIES, Iso6336Stiffness, PathOfContact, SpurGear, SpurPair, Tooth,
+    theoretical_single_stiffness,
+};
 pub use tooth_pair::ToothPair;
 pub use transmission_error::{ErrorHarmonic, TransmissionError};
 

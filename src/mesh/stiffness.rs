@@ -10,6 +10,7 @@
 //!   tooth_pair    k = sum over the pairs of pair (1 - quadratic xi^2 - quartic xi^4) r(u)
 //!                 xi = 2 x / eps - 1,  u = clamp(min(x, eps - x) / ramp, 0, 1),  r = u^3 (10 - 15 u + 6 u^2)
 //!   fourier       k = mean (1 + sum over i of c_i cos(2 pi i phase) + s_i sin(2 pi i phase))
+//!   tooth_geometry  k = sum over the pairs of k(x), from the shape of the teeth (`tooth_geometry/`)
 //!   table         linear between points, periodic; at a jump the value after it holds
 //! ```
 //!
@@ -17,6 +18,7 @@
 
 use super::fourier::FourierSeries;
 use super::table::Table;
+use super::tooth_geometry::{PairStiffness, SpurPair};
 use super::tooth_pair::ToothPair;
 
 /// k over the phase.
@@ -39,6 +41,7 @@ enum Shape {
         split: f64,
     },
     ToothPair(ToothPair),
+    ToothGeometry(PairStiffness),
     Fourier {
         mean: f64,
         series: FourierSeries,
@@ -77,6 +80,25 @@ impl StiffnessLaw {
             shape: Shape::ToothPair(law),
             starts: ascending([fraction(eps), fraction(ramp), fraction(eps - ramp)]),
             mean: law.mean(),
+        }
+    }
+
+    /// The sum over the engaged pairs of what follows from the shape of the teeth. The pair must be able to mesh, with
+    /// a contact ratio of at least 1.
+    pub fn tooth_geometry(pair: &SpurPair) -> StiffnessLaw {
+        let stiffness = PairStiffness::of(pair);
+        StiffnessLaw {
+            starts: ascending([fraction(stiffness.contact_ratio())]),
+            mean: stiffness.integral(),
+            shape: Shape::ToothGeometry(stiffness),
+        }
+    }
+
+    /// The gears that the law was made from, where it was made from tooth geometry.
+    pub fn spur_pair(&self) -> Option<&SpurPair> {
+        match &self.shape {
+            Shape::ToothGeometry(stiffness) => Some(stiffness.pair()),
+            _ => None,
         }
     }
 
@@ -148,14 +170,22 @@ impl StiffnessLaw {
                     fewer_pairs
                 }
             }
-            Shape::ToothPair(ref law) => {
-                // The number of pairs is that of the piece: rounding at its ends cannot change it.
-                let pairs = (law.contact_ratio - self.middle(piece)).floor().max(-1.0) + 1.0;
-                (0..pairs as usize)
-                    .map(|j| law.one_pair(cycle + j as f64))
-                    .sum()
-            }
+            Shape::ToothPair(ref law) => self
+                .engaged(law.contact_ratio, cycle, piece)
+                .map(|x| law.one_pair(x))
+                .sum(),
+            Shape::ToothGeometry(ref law) => self
+                .engaged(law.contact_ratio(), cycle, piece)
+                .map(|x| law.value(x))
+                .sum(),
         }
+    }
+
+    /// Where in their contact [pitches] the pairs are that a piece engages.
+    fn engaged(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
+        // The number of pairs is that of the piece: rounding at its ends cannot change it.
+        let pairs = (contact_ratio - self.middle(piece)).floor().max(-1.0) + 1.0;
+        (0..pairs as usize).map(move |j| cycle + j as f64)
     }
 
     fn middle(&self, piece: usize) -> f64 {

@@ -208,20 +208,23 @@ impl<'d, 't> Table<'d, 't> {
     /// A list of exactly two strings that must be present.
     pub(super) fn pair_of_strings(&self, key: &'static str) -> [String; 2] {
         let nothing = || [String::new(), String::new()];
-        let Some(value) = self.value(key) else {
+        let (Some(value), Some(strings)) = (self.value(key), self.strings(key)) else {
             return self.missing(key, nothing());
         };
-        let strings: Option<Vec<String>> = value.as_array().and_then(|array| {
-            array
-                .iter()
-                .map(|item| item.get_ref().as_str().map(str::to_string))
-                .collect()
-        });
-        strings
-            .and_then(|list| <[String; 2]>::try_from(list).ok())
-            .unwrap_or_else(|| {
-                self.wrong_type(key, "must be a list of two strings", value, nothing())
-            })
+        <[String; 2]>::try_from(strings).unwrap_or_else(|_| {
+            self.wrong_type(key, "must be a list of two strings", value, nothing())
+        })
+    }
+
+    /// A list of strings, or one string, that may be absent; it is empty when it is neither.
+    pub(super) fn strings(&self, key: &'static str) -> Option<Vec<String>> {
+        let value = self.value(key)?;
+        let string = |item: &DeValue<'_>| item.as_str().map(str::to_string);
+        let list: Option<Vec<String>> = match value {
+            DeValue::Array(items) => items.iter().map(|item| string(item.get_ref())).collect(),
+            single => string(single).map(|one| vec![one]),
+        };
+        Some(list.unwrap_or_default())
     }
 
     /// The table under `key`, in words called `key`.

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::ToothGeometry;
+
 /// `[[mesh]]`: two gears in contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
@@ -102,6 +104,8 @@ pub enum MeshStiffness {
         /// Stiffness at each of them [N/m]. > 0
         value: Vec<f64>,
     },
+    /// Sum over the engaged pairs of what follows from the shape of the teeth.
+    ToothGeometry(ToothGeometry),
     /// Sum over the engaged pairs of a polynomial with smooth ends.
     ToothPair {
         /// Stiffness of one pair at mid contact [N/m]. > 0

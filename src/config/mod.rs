@@ -15,6 +15,7 @@ mod mesh;
 mod place;
 mod read;
 mod rotor;
+mod tooth_geometry;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -27,6 +28,7 @@ pub use rotor::{
     BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, Rotor,
     Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
+pub use tooth_geometry::ToothGeometry;
 
 /// One model file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

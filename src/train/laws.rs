@@ -1,7 +1,10 @@
 //! The rules of stiffness laws, and the way from their tables to a [`StiffnessLaw`].
 
+use std::collections::BTreeMap;
+
 use super::rules::Rules;
-use crate::config::{MeshStiffness, Place, Problem};
+use super::tooth_geometry::{self, MeshedGear};
+use crate::config::{self, Material, MeshStiffness, Place, Problem};
 use crate::mesh::{StiffnessLaw, ToothPair};
 
 /// Harmonics beyond these are no mesh stiffness: every one of them is evaluated at every step.
@@ -47,6 +50,9 @@ pub(super) fn check_stiffness(
             ref phase,
             ref value,
         } => check_table(&mut rules, phase, value),
+        MeshStiffness::ToothGeometry(ref geometry) => {
+            tooth_geometry::check_numbers(&mut rules, geometry);
+        }
         MeshStiffness::ToothPair {
             pair,
             quadratic,
@@ -151,9 +157,18 @@ fn fault_of_phases(phase: &[f64]) -> Option<String> {
     })
 }
 
-/// The law of valid numbers.
-pub(super) fn stiffness_law(stiffness: &MeshStiffness) -> StiffnessLaw {
-    match *stiffness {
+/// The law of valid numbers; `None` when they do not fit the gears, which becomes problems.
+pub(super) fn stiffness_law(
+    rules: &mut Rules<'_>,
+    mesh: &config::Mesh,
+    gears: [MeshedGear<'_>; 2],
+    materials: &BTreeMap<String, Material>,
+) -> Option<StiffnessLaw> {
+    Some(match mesh.stiffness {
+        MeshStiffness::ToothGeometry(ref geometry) => {
+            let pair = tooth_geometry::resolve(rules, geometry, mesh, gears, materials)?;
+            StiffnessLaw::tooth_geometry(&pair)
+        }
         MeshStiffness::Constant { mean } => StiffnessLaw::constant(mean),
         MeshStiffness::Rectangular {
             fewer_pairs,
@@ -186,5 +201,5 @@ pub(super) fn stiffness_law(stiffness: &MeshStiffness) -> StiffnessLaw {
             ramp,
             contact_ratio,
         }),
-    }
+    })
 }

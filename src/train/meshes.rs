@@ -1,12 +1,14 @@
 //! The rules of meshes, and the way from their tables to a [`Mesh`].
 
 use core::f64::consts::TAU;
+use std::collections::BTreeMap;
 
 use super::laws::{MOST_HARMONICS, check_stiffness, stiffness_law};
 use super::rules::Rules;
+use super::tooth_geometry::MeshedGear;
 use super::{Gear, GearAddress, GearTrain, Mesh, Rotor};
-use crate::config::{self, MeshDamping, Place, Problem};
-use crate::mesh::{ErrorHarmonic, LineOfAction, TransmissionError, pair_damping};
+use crate::config::{self, Material, MeshDamping, Place, Problem};
+use crate::mesh::{ErrorHarmonic, LineOfAction, StiffnessLaw, TransmissionError, pair_damping};
 
 /// Larger angles leave too few digits for phases that follow from them [rad].
 const LARGEST_ANGLE: f64 = 1e3;
@@ -16,6 +18,7 @@ pub(super) fn resolve_mesh(
     place: &Place,
     mesh: &config::Mesh,
     rotors: &[Rotor],
+    materials: &BTreeMap<String, Material>,
     problems: &mut Vec<Problem>,
 ) -> Option<Mesh> {
     let before = problems.len();
@@ -58,7 +61,23 @@ pub(super) fn resolve_mesh(
             || "needs gears with a polar_inertia greater than 0; give damping instead".to_string(),
         );
     }
-    (rules.problems.len() == before).then(|| build_mesh(mesh, [a, b], sizes, rotors))
+    if rules.problems.len() > before {
+        return None;
+    }
+    let meshed = [0, 1].map(|side| {
+        let rotor = &rotors[[a, b][side].rotor];
+        MeshedGear {
+            rotor,
+            gear: &rotor.gears[[a, b][side].gear],
+            address: &mesh.gears[side],
+        }
+    });
+    let mut rules = Rules {
+        place: &place.table("stiffness"),
+        problems,
+    };
+    let stiffness = stiffness_law(&mut rules, mesh, meshed, materials)?;
+    Some(build_mesh(mesh, [a, b], sizes, stiffness, rotors))
 }
 
 /// A mesh whose parts are all valid. `sizes`: base radius [m] and inertia [kg m^2] of a and b.
@@ -66,10 +85,10 @@ fn build_mesh(
     mesh: &config::Mesh,
     gears: [GearAddress; 2],
     sizes: [(f64, f64); 2],
+    stiffness: StiffnessLaw,
     rotors: &[Rotor],
 ) -> Mesh {
     let s = mesh.flank.sign();
-    let stiffness = stiffness_law(&mesh.stiffness);
     let damping = match mesh.damping {
         MeshDamping::Coefficient(damping) => damping,
         MeshDamping::Ratio(ratio) => {

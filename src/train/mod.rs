@@ -14,6 +14,7 @@ mod phases;
 mod rotors;
 mod rules;
 mod speeds;
+mod tooth_geometry;
 mod validate;
 
 use crate::config::{

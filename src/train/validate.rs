@@ -48,7 +48,13 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
     let mut meshes = Vec::new();
     for (index, mesh) in config.meshes.iter().enumerate() {
         let place = root.element("mesh", index, Some(&mesh.name));
-        meshes.extend(resolve_mesh(&place, mesh, &rotors, &mut problems));
+        meshes.extend(resolve_mesh(
+            &place,
+            mesh,
+            &rotors,
+            &config.materials,
+            &mut problems,
+        ));
     }
     if problems.is_empty() {
         check_speeds(&rotors, &meshes, &mut problems);

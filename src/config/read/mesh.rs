@@ -2,6 +2,7 @@
 
 use super::super::document::Table;
 use super::super::{ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+use super::tooth_geometry::tooth_geometry;
 
 pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
     if table.choice(
@@ -93,12 +94,13 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
         return placeholder;
     };
     type ReadLaw = fn(&Table<'_, '_>) -> MeshStiffness;
-    let laws: [(&str, ReadLaw); 5] = [
+    let laws: [(&str, ReadLaw); 6] = [
         ("constant", |table| MeshStiffness::Constant {
             mean: table.number("mean"),
         }),
         ("rectangular", rectangular),
         ("tooth_pair", tooth_pair),
+        ("tooth_geometry", tooth_geometry),
         ("fourier", fourier),
         ("table", |table| MeshStiffness::Table {
             phase: table.numbers("phase"),

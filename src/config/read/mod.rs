@@ -2,6 +2,7 @@
 
 mod mesh;
 mod rotor;
+mod tooth_geometry;
 
 use super::document::{Document, Lines, Table};
 use super::{Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, Start};

@@ -43,8 +43,8 @@ impl PairStiffness {
         };
         let mut coefficients: Vec<f64> = (0..SAMPLES).map(coefficient).collect();
         let mut dropped = 0.0;
-        while let Some(last) = coefficients.last() {
-            dropped += last.abs();
+        while coefficients.len() > 1 {
+            dropped += coefficients[coefficients.len() - 1].abs();
             if dropped > DROPPED * coefficients[0] {
                 break;
             }

@@ -22,7 +22,7 @@ use super::super::gauss::integral;
 use super::{SpurGear, Tooth};
 
 /// Panels of the Gauss rule along the flank: 1e-9 of the compliance for the thinnest tips (`quadrature_has_converged`).
-const PANELS: usize = 16;
+const PANELS: usize = 24;
 
 /// Coefficients A to F of the polynomials L*, M*, P*, Q* of the gear body. Sainsot, Velex, Duverger 2004, Table 1.
 const BODY: [[f64; 6]; 4] = [
@@ -90,10 +90,13 @@ fn flank_by_panels(tooth: &Tooth, roll: f64, poisson_ratio: f64, panels: usize) 
         let slope = tooth.base_radius * v * libm::cos(v - tooth.half_base_angle); // dX/dv
         load.on_slice(x, y, poisson_ratio) * slope
     };
-    let width = (roll - start) / panels as f64;
+    // Panels shrink towards the load: near a thin tip the integrand changes most steeply.
+    let end = |panel: usize| {
+        let left = (panels - panel) as f64 / panels as f64;
+        roll - (roll - start) * left * left
+    };
     let flank: f64 = (0..panels)
-        .map(|panel| start + width * panel as f64)
-        .map(|from| integral(on_flank, from, from + width))
+        .map(|panel| integral(on_flank, end(panel), end(panel + 1)))
         .sum();
     parallel + flank
 }

@@ -12,13 +12,14 @@
 //! | 8 | [`fmi2`]: the C ABI, the only unsafe code |
 //! | 7 | [`slave`]: FMI life cycle · [`description`]: XML and HTML |
 //! | 6 | [`interface`]: the one table of variables |
-//! | 5 | [`simulation`]: model + state + inputs + solver |
+//! | 5 | [`simulation`]: model + state + inputs + solver · [`analysis`]: what engineers ask before simulating |
 //! | 4 | [`model`]: the assembled modal system |
 //! | 3 | [`rotor`]: one shaft in modal coordinates |
 //! | 2 | [`train`]: the validated description |
 //! | 1 | [`config`]: the model file · [`element`]: shaft elements · [`mesh`]: gear meshes |
 //! | 0 | [`linalg`], [`interpolation`], [`solver`] |
 
+pub mod analysis;
 pub mod config;
 pub mod description;
 pub mod element;

@@ -3,7 +3,11 @@
 //! Factorizations and eigenvalues come from nalgebra. The in-place routines at the end exist because a
 //! time step may not allocate, which nalgebra's factorizations do.
 
+mod eigenpairs;
+
 use nalgebra::{DMatrix, DVector};
+
+pub use eigenpairs::{Eigenpair, eigenpairs, eigenvalues};
 
 /// Natural modes of `M u'' + K u = 0`, ascending in frequency, as far as floating point resolves them.
 #[derive(Debug, Clone)]

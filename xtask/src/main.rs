@@ -17,7 +17,9 @@ const HELP: &str = "\
 cargo xtask <command>
 
   fmu MODEL.toml... [--out DIR]   pack FMUs (default folder: target/fmu)
-  inspect MODEL.toml              what a model file describes: frequencies, meshes
+  inspect MODEL.toml [--format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
+                                  what a model file describes: frequencies, critical speeds, whether the
+                                  modes kept are enough, communication step
   demo                            pack examples/three_stage.toml, run the paper's four cases through
                                   FMPy, write CSV files and pictures to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
@@ -30,7 +32,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
         ["fmu", rest @ ..] => pack::command(rest),
-        ["inspect", file] => inspect::command(&PathBuf::from(file)),
+        ["inspect", rest @ ..] => inspect::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),
         ["bench"] => shell::cargo(&["bench", "--quiet", "--package", "geartrain"]),

@@ -1,0 +1,129 @@
+//! `cargo xtask inspect`: what a model file describes, as an engineer looks at it.
+//!
+//! Everything is computed by `geartrain::analysis`; here it is asked for and printed. What each number
+//! means: `docs/inspect.md`.
+
+mod basis;
+mod frequencies;
+mod json;
+mod options;
+mod published;
+
+use std::path::Path;
+
+use geartrain::analysis::{
+    BasisErrors, Campbell, Kind, Recommendation, Reference, SuggestedStep, VibrationErrors,
+    Vibrations, Whirl, campbell, range_of_interest, recommend, suggested_step, vibrations,
+};
+use geartrain::model::ModalModel;
+use geartrain::train::{GearTrain, Loaded, load};
+
+use crate::{pack, shell};
+use options::{Format, Options};
+use published::Published;
+
+/// Everything `inspect` shows.
+struct Inspection {
+    train: GearTrain,
+    model: ModalModel,
+    vibrations: Vibrations,
+    /// The table over speed, or why there is none.
+    campbell: Result<Campbell, String>,
+    basis: BasisReport,
+    step: SuggestedStep,
+}
+
+/// The modal basis beside the full finite-element model.
+struct BasisReport {
+    reference: Reference,
+    errors: BasisErrors,
+    vibration: Option<VibrationErrors>,
+    recommendation: Option<Recommendation>,
+}
+
+/// Prints what the file describes, for people or as JSON.
+pub fn command(arguments: &[&str]) -> Result<(), String> {
+    let options = Options::parse(arguments)?;
+    let path = &options.model;
+    pack::describe(path)?; // prints warnings
+    let loaded =
+        load(&shell::read(path)?).map_err(|problems| pack::located(path, "", &problems))?;
+    let inspection = Inspection::of(loaded, &options)
+        .map_err(|message| format!("{}: {message}", path.display()))?;
+    match options.format {
+        Format::Json => println!("{:#}", json::report(&inspection)),
+        Format::Text => print_for_people(&inspection, path)?,
+    }
+    Ok(())
+}
+
+impl Inspection {
+    fn of(loaded: Loaded, options: &Options) -> Result<Inspection, String> {
+        let Loaded { config, train, .. } = loaded;
+        let model = ModalModel::assemble(&train, None).map_err(|error| error.to_string())?;
+        let found =
+            vibrations(&model).ok_or("the eigenvalues of the coupled train do not converge")?;
+        let range = options.speeds.range(train.rotors[0].speed);
+        let campbell = range.and_then(|range| {
+            campbell(&config, &model.counts(), &found.oscillating, &range)
+                .map_err(|error| error.to_string())
+        });
+        let range = range_of_interest(&train, &model);
+        Ok(Inspection {
+            basis: BasisReport::of(&train, &model, range)?,
+            step: suggested_step(&model, range),
+            vibrations: found,
+            campbell,
+            train,
+            model,
+        })
+    }
+
+    fn rotor_name(&self, index: usize) -> &str {
+        &self.train.rotors[index].name
+    }
+}
+
+impl BasisReport {
+    fn of(train: &GearTrain, model: &ModalModel, range: f64) -> Result<BasisReport, String> {
+        let failed = |error: geartrain::rotor::ReductionError| error.to_string();
+        let reference = Reference::of(train, range).map_err(failed)?;
+        Ok(BasisReport {
+            errors: reference.errors(model),
+            vibration: reference.vibration_errors(model, &train.gearbox_vibration),
+            recommendation: recommend(train, &reference).map_err(failed)?,
+            reference,
+        })
+    }
+}
+
+fn print_for_people(inspection: &Inspection, path: &Path) -> Result<(), String> {
+    println!(
+        "{}: {}",
+        inspection.train.name, inspection.train.description
+    );
+    frequencies::print_rotors(inspection, &Published::beside(path)?);
+    frequencies::print_meshes(inspection);
+    frequencies::print_coupled(inspection);
+    frequencies::print_critical_speeds(inspection);
+    basis::print_basis(inspection);
+    basis::print_step(&inspection.step);
+    Ok(())
+}
+
+/// The name of a kind.
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Lateral => "lateral",
+        Kind::Torsional => "torsional",
+        Kind::Mesh => "mesh",
+    }
+}
+
+/// The name of a whirl.
+fn whirl(whirl: Option<Whirl>) -> Option<&'static str> {
+    whirl.map(|whirl| match whirl {
+        Whirl::Forward => "forward",
+        Whirl::Backward => "backward",
+    })
+}

@@ -4,10 +4,12 @@
 //! time step may not allocate, which nalgebra's factorizations do.
 
 mod eigenpairs;
+mod quadratic;
 
 use nalgebra::{DMatrix, DVector};
 
 pub use eigenpairs::{Eigenpair, eigenpairs, eigenvalues};
+pub use quadratic::quadratic_eigenpair;
 
 /// Natural modes of `M u'' + K u = 0`, ascending in frequency, as far as floating point resolves them.
 #[derive(Debug, Clone)]

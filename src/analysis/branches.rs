@@ -6,8 +6,6 @@
 //!
 //! Where a vibration is two at once (x and y alike, nothing turning) the assignment is arbitrary.
 
-use nalgebra::Complex;
-
 use super::campbell::Point;
 use super::vibration::Vibration;
 
@@ -52,7 +50,7 @@ fn continued(
         for (j, new) in next.iter().enumerate() {
             let change = new.natural.frequency / old.natural.frequency;
             if (1.0 / LARGEST_CHANGE..LARGEST_CHANGE).contains(&change) {
-                pairs.push((likeness(old, new), i, j));
+                pairs.push((old.likeness(new), i, j));
             }
         }
     }
@@ -67,15 +65,4 @@ fn continued(
         }
     }
     found
-}
-
-/// |x* y|^2 of two shapes of size 1.
-fn likeness(one: &Vibration, two: &Vibration) -> f64 {
-    let along: Complex<f64> = one
-        .shape
-        .iter()
-        .zip(&two.shape)
-        .map(|(x, y)| x.conj() * y)
-        .sum();
-    along.norm_sqr()
 }

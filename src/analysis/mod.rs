@@ -14,6 +14,8 @@ mod basis_check;
 mod branches;
 mod campbell;
 mod compliance;
+mod critical;
+mod family;
 mod recommend;
 mod response;
 mod step;

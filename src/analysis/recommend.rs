@@ -1,13 +1,16 @@
-//! The smallest basis that is large enough.
+//! The smallest basis that is large enough: modes to some frequency and static shapes, which make every static
+//! compliance exact.
 
 use super::basis_check::{BasisErrors, Reference};
-use crate::config::Basis;
+use crate::config::BasisModes;
 use crate::model::ModalModel;
 use crate::rotor::{ModeCounts, ReductionError};
-use crate::train::GearTrain;
+use crate::train::{Basis, GearTrain};
 
 /// Values of `max_frequency` that are tried, as multiples of the range of interest.
-const TRIED: [f64; 10] = [0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0];
+const TRIED: [f64; 12] = [
+    0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0,
+];
 
 /// A basis that is large enough.
 #[derive(Debug, Clone)]
@@ -20,7 +23,7 @@ pub struct Recommendation {
     pub errors: BasisErrors,
 }
 
-/// The lowest `max_frequency` among those tried that is large enough; `None` when none is.
+/// The lowest `max_frequency` among those tried that is large enough with `static_shapes`; `None` when none is.
 pub fn recommend(
     train: &GearTrain,
     reference: &Reference,
@@ -28,7 +31,10 @@ pub fn recommend(
     for multiple in TRIED {
         let max_frequency = two_digits(multiple * reference.highest_frequency);
         let mut candidate = train.clone();
-        candidate.basis = Basis::MaxFrequency(max_frequency);
+        candidate.basis = Basis {
+            modes: BasisModes::MaxFrequency(max_frequency),
+            static_shapes: true,
+        };
         let model = ModalModel::assemble(&candidate, None)?;
         let errors = reference.errors(&model);
         if errors.sufficient() {

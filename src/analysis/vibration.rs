@@ -13,6 +13,8 @@
 //!   flatter than an ellipse of 1 : 20 has none, nor has any on a rotor that stands still.
 //! * A motion whose strain energy is below that of 0.05 Hz is **rigid**: nothing holds it.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Complex;
 
 use crate::linalg::eigenpairs;
@@ -92,16 +94,10 @@ pub fn vibrations(model: &ModalModel) -> Option<Vibrations> {
             }
         };
         let shape = normalised((0..n).map(entry).collect());
-        let energy = StrainEnergy::of(model, &shape);
-        if energy.total().abs() < RIGID {
-            rigid_values += if pair.value.im > 0.0 { 2 } else { 1 };
-            continue;
-        }
-        let vibration = describe(model, NaturalVibration::of(pair.value), shape, &energy);
-        if pair.value.im > 0.0 {
-            found.oscillating.push(vibration);
-        } else {
-            found.creeping.push(vibration);
+        match vibration_of(model, pair.value, shape) {
+            None => rigid_values += if pair.value.im > 0.0 { 2 } else { 1 },
+            Some(vibration) if pair.value.im > 0.0 => found.oscillating.push(vibration),
+            Some(vibration) => found.creeping.push(vibration),
         }
     }
     found.rigid = rigid_values / 2;
@@ -119,12 +115,16 @@ fn normalised(mut shape: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
     shape
 }
 
-fn describe(
+/// The vibration of an eigenvalue and its shape, |q| = 1; `None` when it is a rigid motion.
+pub(super) fn vibration_of(
     model: &ModalModel,
-    natural: NaturalVibration,
+    value: Complex<f64>,
     shape: Vec<Complex<f64>>,
-    energy: &StrainEnergy,
-) -> Vibration {
+) -> Option<Vibration> {
+    let energy = StrainEnergy::of(model, &shape);
+    if energy.total().abs() < RIGID {
+        return None;
+    }
     let moving =
         |block: &Block| -> f64 { shape[block.range()].iter().map(Complex::norm_sqr).sum() };
     let kinetic: Vec<[f64; 2]> = model
@@ -149,12 +149,36 @@ fn describe(
     let whirl = (kind == Kind::Lateral)
         .then(|| whirl(model, rotor, &shape))
         .flatten();
-    Vibration {
-        natural,
+    Some(Vibration {
+        natural: NaturalVibration::of(value),
         kind,
         rotor,
         whirl,
         shape,
+    })
+}
+
+impl Vibration {
+    /// lambda [1/s].
+    pub(super) fn eigenvalue(&self) -> Complex<f64> {
+        let NaturalVibration {
+            frequency,
+            damped_frequency,
+            damping_ratio,
+        } = self.natural;
+        Complex::new(-damping_ratio * frequency, damped_frequency) * TAU
+    }
+
+    /// |x* y|^2 of the shapes of two vibrations: 1 when they are the same.
+    pub(super) fn likeness(&self, other: &Vibration) -> f64 {
+        let pairs = self.shape.iter().zip(&other.shape);
+        let along: Complex<f64> = pairs.map(|(x, y)| x.conj() * y).sum();
+        along.norm_sqr()
+    }
+
+    /// Whether two vibrations are one, as far as rounding can tell.
+    pub(super) fn is_like(&self, other: &Vibration) -> bool {
+        self.likeness(other) > 1.0 - 1e-6
     }
 }
 

@@ -2,6 +2,8 @@
 
 use geartrain::analysis::{CHANNELS, LIMIT, SuggestedStep};
 
+use geartrain::rotor::ModeCounts;
+
 use super::{Inspection, json};
 
 /// Compliances listed at most.
@@ -15,38 +17,46 @@ pub fn print_basis(inspection: &Inspection) {
     let counts = inspection.train.rotors.iter().zip(&inspection.model.rotors);
     let counts: Vec<String> = counts
         .map(|(rotor, modal)| {
-            let (lateral, torsional) = (modal.counts.lateral, modal.counts.torsional);
-            format!("{} {lateral}/{torsional}", rotor.name)
+            let counts = modal.counts;
+            let shapes = [
+                counts.lateral - counts.lateral_modes,
+                counts.torsional - counts.torsional_modes,
+            ];
+            let added = match shapes {
+                [0, 0] => String::new(),
+                [lateral, torsional] => format!(" + {lateral}/{torsional} static shapes"),
+            };
+            let (lateral, torsional) = (counts.lateral_modes, counts.torsional_modes);
+            format!("{} {lateral}/{torsional}{added}", rotor.name)
         })
         .collect();
     println!("  modes (lateral/torsional): {}", counts.join(", "));
     let (highest, limit) = (report.reference.highest_frequency, 100.0 * LIMIT);
-    if errors.sufficient() {
-        println!(
-            "  LARGE ENOUGH: static compliances and force responses up to {highest:.0} Hz are within {limit} %"
-        );
+    let verdict = if errors.sufficient() {
+        "LARGE ENOUGH"
     } else {
-        println!(
-            "  NOT LARGE ENOUGH: up to {highest:.0} Hz force responses are off by up to {}, static compliances by {} (limit {limit} %)",
-            percent(errors.worst_response()),
-            percent(errors.worst_compliance())
-        );
-    }
+        "NOT LARGE ENOUGH"
+    };
+    println!(
+        "  {verdict} for {highest:.0} Hz: worst force response {} (RMS over frequency), worst static compliance {}; limit {limit} %",
+        percent(errors.worst_response()),
+        percent(errors.worst_compliance())
+    );
     match &report.recommendation {
         Some(enough) => {
-            let lateral = enough.counts.iter().map(|counts| counts.lateral).max();
-            let torsional = enough.counts.iter().map(|counts| counts.torsional).max();
+            let counts = |modes: fn(&ModeCounts) -> usize| {
+                enough.counts.iter().map(modes).max().unwrap_or(0)
+            };
             println!(
-                "  large enough is: max_frequency = {:.0}   (up to {}/{} modes; worst response {}, worst compliance {})",
+                "  large enough is: max_frequency = {:.0}, static_shapes = true   (up to {}/{} modes; worst response {})",
                 enough.max_frequency,
-                lateral.unwrap_or(0),
-                torsional.unwrap_or(0),
-                percent(enough.errors.worst_response()),
-                percent(enough.errors.worst_compliance())
+                counts(|counts| counts.lateral_modes),
+                counts(|counts| counts.torsional_modes),
+                percent(enough.errors.worst_response())
             );
         }
         None => {
-            println!("  no basis that was tried is large enough; make max_element_length smaller")
+            println!("  no basis that was tried is large enough; make max_element_length smaller");
         }
     }
     if let Some(vibration) = &report.vibration {
@@ -92,6 +102,12 @@ fn print_octaves(inspection: &Inspection) {
         let name = format!("{:.0} - {:.0}", octave.from, octave.to);
         row(&name, percents.collect(), 2);
     }
+    let rms = (0..CHANNELS.len()).map(|channel| errors.channel_rms(channel));
+    row(
+        "RMS",
+        rms.map(|error| error.map(|error| 100.0 * error)).collect(),
+        2,
+    );
     let good = (0..CHANNELS.len()).map(|channel| errors.channel_good_to(channel));
     row("good to [Hz]", good.collect(), 0);
 }

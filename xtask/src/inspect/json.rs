@@ -128,7 +128,14 @@ fn basis(inspection: &Inspection, report: &BasisReport) -> Value {
     let (errors, model) = (&report.errors, &inspection.model);
     let counts = inspection.train.rotors.iter().zip(&model.rotors);
     let counts = counts.map(|(rotor, modal)| {
-        json!({ "rotor": rotor.name, "lateral": modal.counts.lateral, "torsional": modal.counts.torsional })
+        let counts = modal.counts;
+        json!({
+            "rotor": rotor.name,
+            "lateral_modes": counts.lateral_modes,
+            "torsional_modes": counts.torsional_modes,
+            "lateral_static_shapes": counts.lateral - counts.lateral_modes,
+            "torsional_static_shapes": counts.torsional - counts.torsional_modes,
+        })
     });
     let band = |band: &BandErrors| {
         let channels = CHANNELS.iter().zip(band.channels);
@@ -147,8 +154,9 @@ fn basis(inspection: &Inspection, report: &BasisReport) -> Value {
     let recommended = report.recommendation.as_ref().map(|one| {
         json!({
             "max_frequency": one.max_frequency,
-            "lateral_modes": one.counts.iter().map(|counts| counts.lateral).max(),
-            "torsional_modes": one.counts.iter().map(|counts| counts.torsional).max(),
+            "static_shapes": true,
+            "lateral_modes": one.counts.iter().map(|counts| counts.lateral_modes).max(),
+            "torsional_modes": one.counts.iter().map(|counts| counts.torsional_modes).max(),
             "worst_response_error": one.errors.worst_response(),
             "worst_compliance_error": one.errors.worst_compliance(),
         })

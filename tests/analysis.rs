@@ -13,6 +13,7 @@ use geartrain::analysis::{
     Campbell, ForceResponse, Kind, SpeedRange, Vibrations, Whirl, campbell, vibrations,
 };
 use nalgebra::{Complex, Matrix2};
+use support::parts::{bearing, disk, shaft};
 use support::{assembled, valid};
 
 const E: f64 = 2.1e11;
@@ -23,27 +24,6 @@ fn head() -> String {
         "kind = \"gear_train\"\nname = \"m\"\n[basis]\nlateral_modes = 2\ntorsional_modes = 2\n\
          [material.default]\nyoungs_modulus = {E}\npoisson_ratio = {NU}\ndensity = 1e-6\n\
          [material.rigid]\nyoungs_modulus = 1e17\npoisson_ratio = 0.3\ndensity = 1e-6\n"
-    )
-}
-
-fn disk(position: f64, mass: f64, polar: f64, diametral: f64) -> String {
-    format!(
-        "[[rotor.disk]]\nposition = {position}\nmass = {mass}\npolar_inertia = {polar}\n\
-         diametral_inertia = {diametral}\n"
-    )
-}
-
-fn bearing(name: &str, position: f64, stiffness: f64, damping: f64) -> String {
-    format!(
-        "[[rotor.bearing]]\nname = \"{name}\"\nposition = {position}\n\
-         stiffness = {{ xx = {stiffness:e} }}\ndamping = {{ xx = {damping} }}\n"
-    )
-}
-
-fn shaft(name: &str, speed: f64, length: f64, diameter: f64, material: &str) -> String {
-    format!(
-        "[[rotor]]\nname = \"{name}\"\nspeed = {speed}\nmax_element_length = {length}\n\
-         [[rotor.segment]]\nlength = {length}\nouter_diameter = {diameter}\nmaterial = \"{material}\"\n"
     )
 }
 

@@ -11,6 +11,7 @@
 //! lost. Reads models; moves nothing. `docs/inspect.md` defines every number.
 
 mod basis_check;
+mod basis_errors;
 mod branches;
 mod campbell;
 mod compliance;
@@ -21,10 +22,8 @@ mod response;
 mod step;
 mod vibration;
 
-pub use basis_check::{
-    Answers, BandErrors, BasisErrors, CHANNELS, Excites, LIMIT, Reference, VibrationErrors,
-    range_of_interest,
-};
+pub use basis_check::{Reference, VibrationErrors, range_of_interest};
+pub use basis_errors::{Answers, BandErrors, BasisErrors, CHANNELS, Excites, LIMIT};
 pub use campbell::{Campbell, CriticalSpeed, Excitation, NoCampbell, Point, SpeedRange, campbell};
 pub use compliance::{Compliance, Place, Spot, static_compliances};
 pub use recommend::{Recommendation, recommend};

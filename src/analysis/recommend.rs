@@ -1,7 +1,8 @@
 //! The smallest basis that is large enough: modes to some frequency and static shapes, which make every static
 //! compliance exact.
 
-use super::basis_check::{BasisErrors, Reference};
+use super::basis_check::Reference;
+use super::basis_errors::BasisErrors;
 use crate::config::BasisModes;
 use crate::model::ModalModel;
 use crate::rotor::{ModeCounts, ReductionError};

@@ -3,6 +3,8 @@
 #![allow(dead_code, missing_docs)] // each test file uses its own part
 #![allow(clippy::disallowed_methods)] // tests compare with tolerances: the platform's sin will do
 
+pub mod parts;
+
 use geartrain::model::{Inputs, ModalModel};
 use geartrain::simulation::Simulation;
 use geartrain::train::{Loaded, load};

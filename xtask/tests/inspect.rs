@@ -73,7 +73,7 @@ fn json_has_the_promised_names_and_the_numbers_of_the_library_to_the_bit() {
     );
     assert!(!list(&report["critical_speeds"]).is_empty());
     assert_eq!(list(&report["campbell"]["points"]).len(), 13);
-    assert_eq!(report["suggested_step"], 1e-5, "docs/fmi.md says the same");
+    assert_eq!(report["suggested_step"], 1e-5, "README.md says the same");
 }
 
 #[test]

@@ -13,6 +13,7 @@ const NEAR: f64 = 0.2;
 
 /// The rotors by themselves, compared with what was published.
 pub fn print_rotors(inspection: &Inspection, published: &Published) {
+    let width = rotor_width(inspection);
     println!("\nNatural frequencies of the uncoupled rotors [Hz]");
     if !published.is_empty() {
         print_compared(inspection, published);
@@ -31,15 +32,16 @@ pub fn print_rotors(inspection: &Inspection, published: &Published) {
                 } else {
                     ("", "")
                 };
-                println!("  {name:<12} {kind:<10}{}", cells.concat());
+                println!("  {name:<width$} {kind:<10}{}", cells.concat());
             }
         }
     }
 }
 
 fn print_compared(inspection: &Inspection, published: &Published) {
+    let width = rotor_width(inspection);
     println!(
-        "  {:<12} {:<10} {:>4} {:>12} {:>12} {:>10}   source",
+        "  {:<width$} {:<10} {:>4} {:>12} {:>12} {:>10}   source",
         "rotor", "kind", "mode", "computed", "published", "deviation"
     );
     for (rotor, modal) in inspection.train.rotors.iter().zip(&inspection.model.rotors) {
@@ -50,7 +52,10 @@ fn print_compared(inspection: &Inspection, published: &Published) {
         for (kind, frequencies) in kinds {
             for (index, hertz) in frequencies.iter().enumerate() {
                 let mode = index + 1;
-                let row = format!("  {:<12} {kind:<10} {mode:>4} {hertz:>12.3}", rotor.name);
+                let row = format!(
+                    "  {:<width$} {kind:<10} {mode:>4} {hertz:>12.3}",
+                    rotor.name
+                );
                 match published.find(&rotor.name, kind, mode) {
                     Some((value, source)) => {
                         let deviation = 100.0 * (hertz / value - 1.0);
@@ -69,15 +74,18 @@ pub fn print_meshes(inspection: &Inspection) {
     if train.meshes.is_empty() {
         return;
     }
+    let gears = train.meshes.iter().flat_map(|mesh| mesh.gears);
+    let gear_width = widest(gears.map(|gear| train.gear_name(gear)));
+    let mesh_width = widest(train.meshes.iter().map(|mesh| &mesh.name));
     println!("\nMeshes");
     println!(
-        "  {:<12} {:<18} {:<18} {:>12} {:>16} {:>14}",
+        "  {:<mesh_width$} {:<gear_width$} {:<gear_width$} {:>12} {:>16} {:>14}",
         "mesh", "gear a", "gear b", "f_mesh [Hz]", "k_mean [N/m]", "c [N s/m]"
     );
     for (mesh, modal) in train.meshes.iter().zip(&inspection.model.meshes) {
         let [a, b] = mesh.gears.map(|gear| train.gear_name(gear));
         println!(
-            "  {:<12} {a:<18} {b:<18} {:>12.3} {:>16.6e} {:>14.2}",
+            "  {:<mesh_width$} {a:<gear_width$} {b:<gear_width$} {:>12.3} {:>16.6e} {:>14.2}",
             mesh.name,
             modal.frequency(),
             modal.mean_stiffness(),
@@ -90,13 +98,14 @@ pub fn print_meshes(inspection: &Inspection) {
 pub fn print_coupled(inspection: &Inspection) {
     let limit = inspection.basis.reference.highest_frequency;
     let found = &inspection.vibrations;
+    let width = rotor_width(inspection);
     println!("\nCoupled natural vibrations at speed up to {limit:.0} Hz, mean mesh stiffness");
     let columns = match &inspection.campbell {
         Ok(table) => columns(table),
         Err(_) => Vec::new(),
     };
     let head = format!(
-        "  {:>4} {:>10} {:>9}  {:<9} {:<12} {:<8}",
+        "  {:>4} {:>10} {:>9}  {:<9} {:<width$} {:<8}",
         "no.", "f [Hz]", "damp. [%]", "kind", "rotor", "whirl"
     );
     let speed = inspection.train.rotors[0].speed.abs();
@@ -108,6 +117,7 @@ pub fn print_coupled(inspection: &Inspection) {
         } else {
             (" rpm", 60.0 / TAU)
         };
+        let indent = head.len() + 2;
         let heads = columns
             .iter()
             .map(|point| format!("{:>9}", trimmed(point.speed * factor)));
@@ -116,7 +126,7 @@ pub fn print_coupled(inspection: &Inspection) {
         } else {
             "speed of the first rotor"
         };
-        println!("{:>62}damped f [Hz] at{unit} ... {of}", "");
+        println!("{:>indent$}damped f [Hz] at{unit} ... {of}", "");
         println!("{head}  {}", heads.collect::<String>());
     }
     let shown = found
@@ -153,8 +163,9 @@ pub fn print_coupled(inspection: &Inspection) {
 }
 
 fn columns_of(inspection: &Inspection, one: &Vibration) -> String {
+    let width = rotor_width(inspection);
     format!(
-        "{:>10.2} {:>9.3}  {:<9} {:<12} {:<8}",
+        "{:>10.2} {:>9.3}  {:<9} {:<width$} {:<8}",
         one.natural.frequency,
         100.0 * one.natural.damping_ratio,
         kind(one.kind),
@@ -203,12 +214,13 @@ pub fn print_critical_speeds(inspection: &Inspection) {
         rpm(last.speed),
         100.0 * NEAR
     );
+    let width = rotor_width(inspection);
     if shown.is_empty() {
         println!("  none");
         return;
     }
     println!(
-        "  {:>10} {:>8} {:>10} {:>9}  {:<9} {:<12} {:<8}  excited by",
+        "  {:>10} {:>8} {:>10} {:>9}  {:<9} {:<width$} {:<8}  excited by",
         "n [rpm]", "of speed", "f [Hz]", "damp. [%]", "kind", "rotor", "whirl"
     );
     for critical in shown {
@@ -251,4 +263,14 @@ fn rpm(speed: f64) -> String {
 fn trimmed(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// Width of the column with the names of rotors.
+fn rotor_width(inspection: &Inspection) -> usize {
+    widest(inspection.train.rotors.iter().map(|rotor| &rotor.name))
+}
+
+/// Width of a column with these words.
+fn widest(words: impl Iterator<Item = impl AsRef<str>>) -> usize {
+    words.map(|word| word.as_ref().len()).fold(8, usize::max)
 }

@@ -60,12 +60,19 @@ pub fn print_basis(inspection: &Inspection) {
         }
     }
     if let Some(vibration) = &report.vibration {
-        let worst = |errors: &[f64]| percent(errors.iter().copied().fold(0.0, f64::max));
+        let worst = |name: &str, errors: &[f64]| {
+            let largest = errors.iter().copied().reduce(f64::max)?;
+            Some(format!("worst {name} force {}", percent(largest)))
+        };
+        let parts = [
+            worst("mesh", &vibration.meshes),
+            worst("bearing", &vibration.bearings),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
         println!(
-            "  gearbox vibration of {} Hz: worst mesh force {}, worst bearing force {}",
+            "  gearbox vibration of {} Hz: {}",
             vibration.frequency,
-            worst(&vibration.meshes),
-            worst(&vibration.bearings)
+            parts.join(", ")
         );
     }
     print_octaves(inspection);

@@ -10,11 +10,11 @@ def outputs(s, times, states, base_motion):
     for name, r in s.rotors.items():
         i = s.index[name]
         out[f"{name}.speed"], out[f"{name}.angle"] = speeds[:, i], angles[:, i]
-        turned = angles[:, i] - r.angle if s.free else 0.0                 # theta is what comes on top of the mean rotation
+        turned = s.mean[i] if s.free else 0.0                              # theta is what comes on top of the mean rotation
         for d in r.data["gear"] + r.data["probe"]:
             x, y, theta = s.rows(name, d["position"])
             path = f"{name}.{d['name']}"
-            out[f"{path}.x"], out[f"{path}.y"], out[f"{path}.theta"] = q @ x, q @ y, q @ theta - turned
+            out[f"{path}.x"], out[f"{path}.y"], out[f"{path}.theta"] = q @ x, q @ y, q @ (theta - turned)
         for g in r.data["gear"]:
             out[f"{name}.{g['name']}.mesh_torque"] = np.zeros(len(times))
     _bearings(s, times, q, v, speeds, base_motion, out)

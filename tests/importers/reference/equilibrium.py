@@ -6,10 +6,11 @@ The potential of bearings and contacts is convex, so damped Newton steps
 
     (J + mu M) dq = -g(q),     mu -> 0 with |g|
 
-find the contacts and clearances that close.
+find the contacts and clearances that close, each no longer than until the potential rises along it: dq.g(q + a dq) = 0.
 """
 import numpy as np
 from scipy.linalg import null_space
+from scipy.optimize import brentq
 
 
 def equilibrium(s, base_motion, torques):
@@ -52,8 +53,10 @@ def equilibrium(s, base_motion, torques):
     for _ in range(500):
         if size(g) == 0:
             return q
-        mu = 4e3 * size(g) / start                                         # (2 pi 10 Hz)^2 at first
+        mu = 4e3 * min(1.0, size(g) / start)                               # (2 pi 10 Hz)^2 at first
         step = np.linalg.solve(np.block([[tangent(q) + mu * s.mass, carrier], [carrier.T, corner]]), np.append(-g, np.diag(corner)))[: s.n]
+        if step @ force(q + step) > 1e-6 * abs(step @ g):
+            step *= brentq(lambda a: step @ force(q + a * step), 0.0, 1.0, xtol=1e-12)
         q = q + step
         g = project @ force(q)
         if np.sqrt(step @ s.mass @ step) < 1e-14 * np.sqrt(q @ s.mass @ q):

@@ -4,6 +4,7 @@
 
 mod support;
 
+use geartrain::mesh::StiffnessLaw;
 use geartrain::model::equilibrium;
 use geartrain::train::load;
 use support::{assembled, file_inputs, started, valid};
@@ -325,4 +326,59 @@ fn teeth_that_do_not_fit_are_refused_with_what_to_change() {
             "0.0225 m",
         ],
     );
+}
+
+/// The model with other teeth on the pinion, racks and a thinner shaft; angles in degrees.
+fn pinion(teeth: u32, lists: [&str; 3], [rack, operating]: [f64; 2]) -> String {
+    let ([addendum, dedendum, shift], degree) = (lists, 0.349_065_850_398_865_9 / 20.0);
+    let speed = -258.0 * f64::from(teeth) / 43.0;
+    let angle = "pressure_angle = 0.3490658503988659";
+    changed(&[
+        ("teeth = 17", &format!("teeth = {teeth}")),
+        ("speed = -102.0", &format!("speed = {speed}")),
+        ("[1.0, 1.0]", &format!("[{addendum}]")),
+        ("[1.25, 1.25]", &format!("[{dedendum}]")),
+        ("[0.0, 0.0]", &format!("[{shift}]")),
+        (
+            "bore_radius = [0.01, 0.025]",
+            &format!("rack_pressure_angle = {}", rack * degree),
+        ),
+        ("outer_diameter = 0.03", "outer_diameter = 0.01"),
+        (angle, &format!("pressure_angle = {}", rack * degree)),
+        (angle, &format!("pressure_angle = {}", rack * degree)),
+        (angle, &format!("pressure_angle = {}", operating * degree)),
+    ])
+}
+
+#[test]
+fn whatever_passes_the_rules_has_a_positive_and_exact_stiffness() {
+    let mut accepted = 0;
+    for teeth in [5, 9, 14, 17, 60, 2000] {
+        for addendum in ["0.8, 1.0", "1.0, 1.0", "1.3, 1.3", "1e9, 1.0"] {
+            for dedendum in ["1.25, 1.25", "1.7, 1.7", "0.01, 1e-9"] {
+                for shift in ["0.0, 0.0", "0.5, 0.5", "0.9, -0.9", "-1e6, 1e6"] {
+                    for angles in [[15.0, 18.0], [20.0, 20.0], [20.0, 24.0], [28.0, 30.0]] {
+                        let text = pinion(teeth, [addendum, dedendum, shift], angles);
+                        let Ok(loaded) = load(&text) else { continue };
+                        accepted += 1;
+                        check_law(&loaded.train.meshes[0].stiffness);
+                    }
+                }
+            }
+        }
+    }
+    assert!(accepted > 30, "{accepted} of 1152");
+}
+
+/// The law is positive and the sum of the integrals over the engaged pairs.
+fn check_law(law: &StiffnessLaw) {
+    let pair = law.spur_pair().unwrap();
+    assert!(law.mean() > 0.0 && law.mean().is_finite(), "{pair:?}");
+    let eps = pair.path_of_contact().contact_ratio();
+    for cycle in [0.0, 0.13, 0.26, 0.39, 0.52, 0.65, 0.78, 0.91] {
+        let engaged = (0..10).map(|j| cycle + f64::from(j)).filter(|&x| x <= eps);
+        let exact: f64 = engaged.map(|x| pair.pair_stiffness(x)).sum();
+        let found = law.value(cycle, law.piece(cycle));
+        assert!((found / exact - 1.0).abs() < 1e-9, "{pair:?} at {cycle}");
+    }
 }

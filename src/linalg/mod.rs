@@ -3,12 +3,16 @@
 //! Factorizations and eigenvalues come from nalgebra. The in-place routines at the end exist because a
 //! time step may not allocate, which nalgebra's factorizations do.
 
+mod decoupling;
 mod eigenpairs;
+mod phi;
 mod quadratic;
 
 use nalgebra::{DMatrix, DVector};
 
+pub use decoupling::{Decoupling, Group, decouple};
 pub use eigenpairs::{Eigenpair, eigenpairs, eigenvalues};
+pub use phi::{PHI_ORDERS, PhiFunctions};
 pub use quadratic::quadratic_eigenpair;
 
 /// Natural modes of `M u'' + K u = 0`, ascending in frequency, as far as floating point resolves them.

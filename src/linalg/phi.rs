@@ -1,0 +1,409 @@
+//! The functions of a small matrix that solve linear differential equations exactly.
+//!
+//! ```text
+//!   phi_0(z) = e^z      phi_k(z) = sum over n of z^n / (n + k)!      z phi_k = phi_(k-1) - 1 / (k-1)!
+//!   integral from 0 to T of e^(B (T-s)) s^k ds = k! T^(k+1) phi_(k+1)(B T)
+//! ```
+//!
+//! Small arguments: Taylor's series of the highest order, then downwards (no cancellation). A 2 x 2 matrix with
+//! eigenvalues a +- i w: f(B) = Re f(lambda) + Im f(lambda) / w (B - a). Everything else: the argument is halved until
+//! the series serves, then doubled again:
+//!
+//! ```text
+//!   phi_k(2 z) = 2^-k [ e^z phi_k(z) + sum over j = 1 .. k of phi_j(z) / (k-j)! ]
+//! ```
+//!
+//! Sources: Hochbruck, Ostermann, Acta Numerica 19 (2010), 2.1; doubling: Skaflestad, Wright, Appl. Numer. Math. 59 (2009).
+
+use nalgebra::{Complex, DMatrix};
+
+use super::add_scaled;
+
+/// phi_0 to phi_6.
+pub const PHI_ORDERS: usize = 7;
+
+/// 1/k!.
+const INVERSE_FACTORIAL: [f64; PHI_ORDERS] = [
+    1.0,
+    1.0,
+    0.5,
+    1.0 / 6.0,
+    1.0 / 24.0,
+    1.0 / 120.0,
+    1.0 / 720.0,
+];
+
+/// Size of an argument up to which the series is used, and its terms: 1^24 / 30! is below rounding.
+const SERIES_RADIUS: f64 = 1.0;
+const SERIES_TERMS: usize = 24;
+/// Arguments beyond 2^60 have lost all digits of their phase.
+const MOST_HALVINGS: u32 = 60;
+
+/// phi_0 to phi_6 of matrices up to a fixed size, computed without allocation.
+#[derive(Debug, Clone)]
+pub struct PhiFunctions {
+    /// Number of rows of the latest argument.
+    size: usize,
+    /// phi_k column by column from `k size^2` on.
+    values: Vec<f64>,
+    argument: Vec<f64>,
+    product: Vec<f64>,
+    doubled: Vec<f64>,
+    /// The oscillator beside the largest matrix; `None` in the functions that serve it.
+    augmented: Option<Box<PhiFunctions>>,
+}
+
+impl PhiFunctions {
+    /// For matrices of up to `largest` rows.
+    pub fn new(largest: usize) -> PhiFunctions {
+        PhiFunctions {
+            augmented: Some(Box::new(PhiFunctions::without_oscillator(largest + 2))),
+            ..PhiFunctions::without_oscillator(largest)
+        }
+    }
+
+    fn without_oscillator(largest: usize) -> PhiFunctions {
+        let square = vec![0.0; largest * largest];
+        PhiFunctions {
+            size: 0,
+            values: vec![0.0; PHI_ORDERS * square.len()],
+            argument: square.clone(),
+            product: square.clone(),
+            doubled: vec![0.0; PHI_ORDERS * square.len()],
+            augmented: None,
+        }
+    }
+
+    /// phi_k of the latest argument, m x m column by column.
+    pub fn get(&self, k: usize) -> &[f64] {
+        let square = self.size * self.size;
+        &self.values[k * square..(k + 1) * square]
+    }
+
+    /// Evaluates all functions of `matrix * time`.
+    pub fn evaluate(&mut self, matrix: &DMatrix<f64>, time: f64) {
+        let m = matrix.nrows();
+        self.size = m;
+        let square = m * m;
+        for (target, value) in self.argument.iter_mut().zip(matrix.iter()) {
+            *target = value * time;
+        }
+        let pair = complex_pair(matrix).map(|value| value * time);
+        let well_apart = |value: &Complex<f64>| value.im > 1e-3 * (1.0 + value.re.abs());
+        if m == 1 {
+            let phi = complex_phi_functions(Complex::new(self.argument[0], 0.0));
+            for (target, value) in self.values.iter_mut().zip(phi) {
+                *target = value.re;
+            }
+        } else if let Some(value) = pair.filter(well_apart) {
+            // With a small w the formula would divide rounding by w.
+            let functions = complex_phi_functions(value);
+            for (phi, target) in functions.iter().zip(self.values.chunks_exact_mut(square)) {
+                let slope = phi.im / value.im;
+                for (index, (entry, argument)) in target.iter_mut().zip(&self.argument).enumerate()
+                {
+                    let on_diagonal = index % (m + 1) == 0;
+                    let shifted = if on_diagonal {
+                        argument - value.re
+                    } else {
+                        *argument
+                    };
+                    *entry = slope * shifted + if on_diagonal { phi.re } else { 0.0 };
+                }
+            }
+        } else {
+            self.double_up(m);
+        }
+    }
+
+    /// The argument is halved until the series serves, then doubled again.
+    fn double_up(&mut self, m: usize) {
+        let square = m * m;
+        let row = |i: usize| (0..m).map(|j| self.argument[i + j * m].abs()).sum::<f64>();
+        let mut size = (0..m).map(row).fold(0.0, f64::max);
+        let mut halvings = 0;
+        while size > SERIES_RADIUS && halvings < MOST_HALVINGS {
+            size *= 0.5;
+            halvings += 1;
+            self.argument[..square]
+                .iter_mut()
+                .for_each(|value| *value *= 0.5);
+        }
+        self.sum_series(m);
+        for _ in 0..halvings {
+            self.double(m);
+        }
+    }
+
+    fn sum_series(&mut self, m: usize) {
+        let (square, top) = (m * m, PHI_ORDERS - 1);
+        let argument = &self.argument[..square];
+        let (lower, highest) = self.values.split_at_mut(top * square);
+        let highest = &mut highest[..square];
+        let term = &mut self.doubled[..square];
+        set_diagonal(term, m, INVERSE_FACTORIAL[top]);
+        highest.copy_from_slice(term);
+        for n in 1..SERIES_TERMS {
+            let product = &mut self.product[..square];
+            multiply(m, argument, term, product);
+            let factor = 1.0 / (n + top) as f64;
+            for ((term, sum), value) in term.iter_mut().zip(&mut *highest).zip(product) {
+                *term = *value * factor;
+                *sum += *term;
+            }
+        }
+        let mut above: &[f64] = highest;
+        for (k, phi) in lower.chunks_exact_mut(square).enumerate().rev() {
+            multiply(m, argument, above, phi);
+            for i in 0..m {
+                phi[i * (m + 1)] += INVERSE_FACTORIAL[k];
+            }
+            above = phi;
+        }
+    }
+
+    fn double(&mut self, m: usize) {
+        let square = m * m;
+        let phi = |k: usize| &self.values[k * square..(k + 1) * square];
+        let mut power = 1.0;
+        for (k, target) in self
+            .doubled
+            .chunks_exact_mut(square)
+            .take(PHI_ORDERS)
+            .enumerate()
+        {
+            multiply(m, phi(0), phi(k), target);
+            for j in 1..=k {
+                add_scaled(INVERSE_FACTORIAL[k - j], phi(j), target);
+            }
+            target.iter_mut().for_each(|value| *value *= power);
+            power *= 0.5;
+        }
+        let used = PHI_ORDERS * square;
+        self.values[..used].copy_from_slice(&self.doubled[..used]);
+    }
+
+    /// The response of x' = B x + Re(load e^(i w t)) from rest over a time T: x(T) = Re(result).
+    ///
+    /// ```text
+    ///   result = integral from 0 to T of e^(B (T-s)) e^(i w s) ds load
+    ///          = f(B) load,  f(z) = T e^(i w T) phi_1((z - i w) T)       exact at resonance too
+    /// ```
+    pub fn oscillator_response(
+        &mut self,
+        matrix: &DMatrix<f64>,
+        time: f64,
+        frequency: f64,
+        load: &[Complex<f64>],
+        result: &mut [Complex<f64>],
+    ) {
+        let m = matrix.nrows();
+        let apart = |value: &Complex<f64>| value.im * time > 1e-3 * (1.0 + value.re.abs() * time);
+        if let Some(value) = complex_pair(matrix).filter(apart) {
+            let response = |value: Complex<f64>| {
+                let argument = (value - Complex::new(0.0, frequency)) * time;
+                complex_phi_functions(argument)[1] * time * rotation(frequency * time)
+            };
+            // Lagrange's form of f(B) on the two eigenvalues.
+            let (upper, lower) = (response(value), response(value.conj()));
+            let slope = (upper - lower) / (value - value.conj());
+            let level = upper - slope * value;
+            for (i, target) in result.iter_mut().enumerate() {
+                let product: Complex<f64> = (0..m).map(|j| load[j] * matrix[(i, j)]).sum();
+                *target = level * load[i] + slope * product;
+            }
+        } else if let Some(augmented) = &mut self.augmented {
+            augmented.respond(matrix, time, frequency, load, result);
+        }
+    }
+
+    /// The oscillator as two further states: e^([B, Re load, -Im load; 0, rotation] T).
+    fn respond(
+        &mut self,
+        matrix: &DMatrix<f64>,
+        time: f64,
+        frequency: f64,
+        load: &[Complex<f64>],
+        result: &mut [Complex<f64>],
+    ) {
+        let m = matrix.nrows();
+        let n = m + 2;
+        self.size = n;
+        self.argument[..n * n].fill(0.0);
+        for (j, column) in matrix.column_iter().enumerate() {
+            for (i, value) in column.iter().enumerate() {
+                self.argument[i + j * n] = value * time;
+            }
+        }
+        for (i, load) in load.iter().enumerate() {
+            self.argument[i + m * n] = load.re * time;
+            self.argument[i + (m + 1) * n] = -load.im * time;
+        }
+        self.argument[m + (m + 1) * n] = -frequency * time;
+        self.argument[m + 1 + m * n] = frequency * time;
+        self.double_up(n);
+        for (i, target) in result.iter_mut().enumerate() {
+            let response = |column: usize| self.get(0)[i + column * n];
+            *target = Complex::new(response(m), -response(m + 1));
+        }
+    }
+}
+
+/// product = left right, m x m.
+fn multiply(m: usize, left: &[f64], right: &[f64], product: &mut [f64]) {
+    for (column, target) in right.chunks_exact(m).zip(product.chunks_exact_mut(m)) {
+        target.fill(0.0);
+        for (left, factor) in left.chunks_exact(m).zip(column) {
+            add_scaled(*factor, left, target);
+        }
+    }
+}
+
+fn set_diagonal(matrix: &mut [f64], m: usize, value: f64) {
+    matrix.fill(0.0);
+    matrix
+        .iter_mut()
+        .step_by(m + 1)
+        .for_each(|entry| *entry = value);
+}
+
+/// e^(i angle).
+fn rotation(angle: f64) -> Complex<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    Complex::new(cosine, sine)
+}
+
+/// The eigenvalue with positive imaginary part of a 2 x 2 matrix that has one.
+fn complex_pair(matrix: &DMatrix<f64>) -> Option<Complex<f64>> {
+    if matrix.nrows() != 2 {
+        return None;
+    }
+    let half_difference = 0.5 * (matrix[(0, 0)] - matrix[(1, 1)]);
+    let discriminant = half_difference * half_difference + matrix[(0, 1)] * matrix[(1, 0)];
+    let real = 0.5 * (matrix[(0, 0)] + matrix[(1, 1)]);
+    (discriminant < 0.0).then(|| Complex::new(real, (-discriminant).sqrt()))
+}
+
+fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDERS] {
+    let mut phi = [Complex::new(0.0, 0.0); PHI_ORDERS];
+    if z.re.abs() + z.im.abs() <= SERIES_RADIUS {
+        let top = PHI_ORDERS - 1;
+        let mut term = Complex::new(INVERSE_FACTORIAL[top], 0.0);
+        phi[top] = term;
+        for n in 1..SERIES_TERMS {
+            term = term * z / (n + top) as f64;
+            phi[top] += term;
+        }
+        for k in (0..top).rev() {
+            phi[k] = z * phi[k + 1] + INVERSE_FACTORIAL[k];
+        }
+    } else {
+        phi[0] = rotation(z.im) * libm::exp(z.re);
+        for k in 1..PHI_ORDERS {
+            phi[k] = (phi[k - 1] - INVERSE_FACTORIAL[k - 1]) / z;
+        }
+    }
+    phi
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// phi_k of a diagonalizable matrix by its eigenvalues: V f(L) V^-1.
+    fn rotated(values: [f64; 2]) -> (DMatrix<f64>, impl Fn([f64; 2]) -> DMatrix<f64>) {
+        let shapes = DMatrix::from_row_slice(2, 2, &[1.0, 0.3, -0.2, 1.0]);
+        let inverse = shapes.clone().try_inverse().unwrap();
+        let build = move |values: [f64; 2]| {
+            &shapes * DMatrix::from_diagonal(&nalgebra::DVector::from_row_slice(&values)) * &inverse
+        };
+        (build(values), build)
+    }
+
+    fn functions(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
+        let m = matrix.nrows();
+        let mut functions = PhiFunctions::new(m);
+        functions.evaluate(matrix, 1.0);
+        core::array::from_fn(|k| DMatrix::from_column_slice(m, m, functions.get(k)))
+    }
+
+    /// The matrix as the upper part of a larger one, which takes the way of doubling.
+    fn by_doubling(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
+        let m = matrix.nrows();
+        let mut larger = DMatrix::zeros(m + 1, m + 1);
+        larger.view_mut((0, 0), (m, m)).copy_from(matrix);
+        functions(&larger).map(|phi| phi.view((0, 0), (m, m)).into_owned())
+    }
+
+    fn scalar(z: f64) -> [f64; PHI_ORDERS] {
+        complex_phi_functions(Complex::new(z, 0.0)).map(|value| value.re)
+    }
+
+    #[test]
+    fn matrices_with_real_eigenvalues_are_functions_of_these() {
+        for values in [[-0.3, 0.2], [-4.0, -0.01], [-60.0, 0.0], [3.0, 2.0]] {
+            let (matrix, build) = rotated(values);
+            for (k, function) in functions(&matrix).iter().enumerate() {
+                let expected = build(values.map(|value| scalar(value)[k]));
+                // 1e-12: rounding grows with the number of doublings.
+                let error = (function - &expected).amax() / expected.amax();
+                assert!(error < 1e-12, "phi_{k} of {values:?}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn formula_series_and_doubling_agree_on_oscillating_pairs() {
+        for (a, w) in [(-0.1, 0.4), (-0.05, 3.0), (0.2, 40.0), (-3.0, 0.9)] {
+            // Similar to [a, -w; w, a], but not of that form.
+            let matrix = DMatrix::from_row_slice(2, 2, &[a + 0.3 * w, -w * 1.09, w, a - 0.3 * w]);
+            for (k, (formula, doubling)) in functions(&matrix)
+                .iter()
+                .zip(&by_doubling(&matrix))
+                .enumerate()
+            {
+                // 1e-12: rounding grows with the number of doublings.
+                let error = (formula - doubling).amax() / doubling.amax();
+                assert!(error < 1e-12, "phi_{k} of {a} +- {w} i: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_defective_matrix_has_the_functions_of_a_double_integrator() {
+        let matrix = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]);
+        for (k, function) in functions(&matrix).iter().enumerate() {
+            let next = if k + 1 < PHI_ORDERS {
+                INVERSE_FACTORIAL[k + 1]
+            } else {
+                1.0 / 5040.0
+            };
+            assert!((function[(0, 0)] - INVERSE_FACTORIAL[k]).abs() < 1e-15);
+            assert!((function[(0, 1)] - next).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn oscillator_response_is_the_same_through_formula_and_augmentation_and_at_resonance() {
+        let (w, time) = (7.0, 0.9);
+        let load = [Complex::new(0.4, -1.0), Complex::new(2.0, 0.5)];
+        for (a, frequency) in [(-0.2, 3.0), (0.0, 7.0), (0.0, 7.0 + 1e-9), (-1.0, -20.0)] {
+            let matrix = DMatrix::from_row_slice(2, 2, &[a, -w, w, a]);
+            let mut response = PhiFunctions::new(3);
+            let mut formula = [Complex::new(0.0, 0.0); 2];
+            response.oscillator_response(&matrix, time, frequency, &load, &mut formula);
+            // The same pair beside an unrelated state takes the general way.
+            let mut larger = DMatrix::zeros(3, 3);
+            larger.view_mut((0, 0), (2, 2)).copy_from(&matrix);
+            let padded = [load[0], load[1], Complex::new(0.0, 0.0)];
+            let mut general = [Complex::new(0.0, 0.0); 3];
+            response.oscillator_response(&larger, time, frequency, &padded, &mut general);
+            for (one, two) in formula.iter().zip(&general) {
+                assert!(
+                    (one - two).l1_norm() < 1e-12,
+                    "{a} {frequency}: {one} {two}"
+                );
+            }
+        }
+    }
+}

@@ -272,33 +272,6 @@ fn missing_keys_are_named_once_each() {
 }
 
 #[test]
-fn keys_of_later_versions_say_so() {
-    let later = [
-        ("speed = \"prescribed\"", "speed = \"free\"", "free spin"),
-        (
-            "start = \"equilibrium\"",
-            "start = \"rest\"\nsolver = \"exponential\"",
-            "exponential",
-        ),
-        (
-            "contact = \"bilateral\"",
-            "contact = \"unilateral\"",
-            "unilateral",
-        ),
-    ];
-    let text = three_stage();
-    for (from, to, word) in later {
-        let found = shown(&text.replacen(from, to, 1));
-        assert!(
-            found
-                .iter()
-                .any(|one| one.contains(word) && one.contains("not available yet")),
-            "{found:#?}"
-        );
-    }
-}
-
-#[test]
 fn torques_that_drift_and_flanks_that_contradict_are_warnings() {
     let drifting = three_stage()
         .replace("slope = 0.5", "slope = 0.0")

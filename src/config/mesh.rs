@@ -23,6 +23,8 @@ pub struct Mesh {
     pub phase: Option<f64>,
     /// Damping of the tooth contact.
     pub damping: MeshDamping,
+    /// Whether the teeth can part.
+    pub contact: Contact,
     /// Which motions the mesh torque follows.
     pub torque_coupling: TorqueCoupling,
     /// Stiffness over the mesh phase.
@@ -60,6 +62,18 @@ pub enum MeshDamping {
     Ratio(f64),
     /// Coefficient c [N s/m]. >= 0
     Coefficient(f64),
+}
+
+/// Whether the teeth can part.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Contact {
+    /// The teeth hold on to each other: linear, as in the paper.
+    Bilateral,
+    /// The teeth press only, on either flank.
+    Unilateral {
+        /// Distance that the back flank has to travel along its normal [m]. >= 0
+        backlash: f64,
+    },
 }
 
 /// Which motions the mesh torque follows.

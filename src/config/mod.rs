@@ -21,12 +21,12 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use document::Lines;
-pub use mesh::{ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+pub use mesh::{Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Reading, read};
 pub use rotor::{
-    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, Rotor,
-    Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
+    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
+    Rotor, Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
 pub use tooth_geometry::ToothGeometry;
 
@@ -54,6 +54,10 @@ pub struct Config {
 /// `[simulation]`: how the time simulation starts and runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Simulation {
+    /// What the mean rotation follows.
+    pub speed: SpeedMode,
+    /// How time is integrated.
+    pub solver: SolverChoice,
     /// State at the start time.
     pub start: Start,
     /// Bound on the RMS error of every mesh force over a run, relative to that force's RMS.
@@ -63,6 +67,24 @@ pub struct Simulation {
     pub stop_time: f64,
     /// Default communication step [s]. > 0
     pub step_size: f64,
+}
+
+/// What the mean rotation follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpeedMode {
+    /// Constant mean speeds; torsion is a vibration on top of them.
+    Prescribed,
+    /// The torques: the rigid rotation is a state.
+    Free,
+}
+
+/// How time is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SolverChoice {
+    /// Exponential collocation: shafts and bearings exactly, forces between them by polynomials.
+    Exponential,
+    /// The integrator of the paper.
+    Newmark,
 }
 
 /// State at the start time.

@@ -103,6 +103,20 @@ pub struct Bearing {
     pub damping: Planar,
     /// Coefficients that depend on the rotor's speed.
     pub at_speed: Option<SpeedTable>,
+    /// A radial force in addition.
+    pub nonlinear: Option<RadialForce>,
+}
+
+/// `[rotor.bearing.nonlinear]`: F_r over the radial displacement r of the shaft relative to the gearbox, in addition to the
+/// linear spring and damper.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RadialForce {
+    /// Radial clearance [m]: no force below it. >= 0
+    pub clearance: f64,
+    /// Force per (r - clearance)^exponent [N/m^exponent]. >= 0
+    pub coefficient: f64,
+    /// 1: a spring behind a clearance; 3: a cubic spring; 10/9 or 3/2: rollers or balls after Hertz. [1, 3]
+    pub exponent: f64,
 }
 
 /// Bearing coefficients over the speed of the rotor.

@@ -1,10 +1,12 @@
 //! Bearings: constant coefficients, or coefficients over the speed of the rotor.
 
 use super::rules::Rules;
-use crate::config::{self, OutsideSpeeds, Place, Planar, Problem, SpeedPoint, SpeedTable};
+use crate::config::{
+    self, OutsideSpeeds, Place, Planar, Problem, RadialForce, SpeedPoint, SpeedTable,
+};
 use crate::interpolation::MonotoneCubic;
 
-/// A linear spring and damper between shaft and gearbox.
+/// A spring and damper between shaft and gearbox.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
     /// Unique name on its rotor.
@@ -13,6 +15,8 @@ pub struct Bearing {
     pub position: f64,
     /// Stiffness and damping.
     pub law: BearingLaw,
+    /// A radial force in addition.
+    pub nonlinear: Option<RadialForce>,
 }
 
 /// Where the coefficients of a bearing come from.
@@ -85,13 +89,16 @@ impl CoefficientCurves {
     }
 }
 
-/// Checks the coefficients of a bearing on a rotor with this speed [rad/s].
+/// Checks a bearing on a rotor with this speed [rad/s], which in free spin is only the first one.
 pub(super) fn resolve_bearing(
     place: &Place,
     bearing: &config::Bearing,
-    speed: f64,
+    (speed, free): (f64, bool),
     problems: &mut Vec<Problem>,
 ) -> Bearing {
+    if let Some(force) = &bearing.nonlinear {
+        check_radial_force(&place.table("nonlinear"), force, problems);
+    }
     let before = problems.len();
     let law = match &bearing.at_speed {
         None => {
@@ -100,6 +107,12 @@ pub(super) fn resolve_bearing(
         }
         Some(table) => {
             check_table(place, table, speed, problems);
+            let mut rules = Rules { place, problems };
+            let holds = !free || table.outside == OutsideSpeeds::Hold;
+            rules.ensure("outside_speeds", holds, || {
+                "must be \"hold\" in free spin, where the speed goes where the torques take it"
+                    .to_string()
+            });
             // A wrong table may not even have a curve.
             (problems.len() == before).then(|| CoefficientCurves::through(table))
         }
@@ -112,7 +125,23 @@ pub(super) fn resolve_bearing(
         name: bearing.name.clone(),
         position: bearing.position,
         law: law.map_or(BearingLaw::Constant(constant), BearingLaw::AtSpeed),
+        nonlinear: bearing.nonlinear,
     }
+}
+
+fn check_radial_force(place: &Place, force: &RadialForce, problems: &mut Vec<Problem>) {
+    let mut rules = Rules { place, problems };
+    rules.not_negative("clearance", force.clearance, "m");
+    // The law "clearance" calls its coefficient a stiffness.
+    let (key, unit) = if force.exponent == 1.0 {
+        ("stiffness", "N/m")
+    } else {
+        ("coefficient", "N/m^exponent")
+    };
+    rules.not_negative(key, force.coefficient, unit);
+    rules.ensure("exponent", (1.0..=3.0).contains(&force.exponent), || {
+        format!("must be from 1 to 3, found {}", force.exponent)
+    });
 }
 
 fn check_table(place: &Place, table: &SpeedTable, speed: f64, problems: &mut Vec<Problem>) {

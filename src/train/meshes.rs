@@ -7,7 +7,7 @@ use super::laws::{MOST_HARMONICS, check_stiffness, stiffness_law};
 use super::rules::Rules;
 use super::tooth_geometry::MeshedGear;
 use super::{Gear, GearAddress, GearTrain, Mesh, Rotor};
-use crate::config::{self, Material, MeshDamping, Place, Problem};
+use crate::config::{self, Contact, Material, MeshDamping, Place, Problem, TorqueCoupling};
 use crate::mesh::{ErrorHarmonic, LineOfAction, StiffnessLaw, TransmissionError, pair_damping};
 
 /// Larger angles leave too few digits for phases that follow from them [rad].
@@ -33,6 +33,14 @@ pub(super) fn resolve_mesh(
         format!("must be within -1e6 and 1e6 pitches, found {phase}")
     });
     rules.positive("stiffness_factor", mesh.stiffness_factor, "");
+    if let Contact::Unilateral { backlash } = mesh.contact {
+        rules.not_negative("backlash", backlash, "m");
+        let printed = mesh.torque_coupling == TorqueCoupling::AsPrinted;
+        rules.ensure("torque_coupling", !printed, || {
+            "as_printed is the paper's linear contact; use contact = \"bilateral\" with it"
+                .to_string()
+        });
+    }
     match mesh.damping {
         MeshDamping::Ratio(ratio) => rules.not_negative("damping_ratio", ratio, ""),
         MeshDamping::Coefficient(damping) => rules.not_negative("damping", damping, "N s/m"),
@@ -113,12 +121,14 @@ fn build_mesh(
             sizes[0].0,
             sizes[1].0,
         ),
+        contact: mesh.contact,
         torque_coupling: mesh.torque_coupling,
         stiffness,
         stiffness_factor: mesh.stiffness_factor,
         damping,
         transmission_error: transmission_error(&mesh.transmission_error),
         start_phase: pitches * rotor_a.angle,
+        pitches,
         phase_rate: pitches * rotor_a.speed,
     }
 }

@@ -18,8 +18,8 @@ mod tooth_geometry;
 mod validate;
 
 use crate::config::{
-    self, BasisModes, BasisSupport, Bow, Config, Disk, GearboxVibration, Lines, Material, Probe,
-    Problem, Simulation, Torque, TorqueCoupling, Unbalance,
+    self, BasisModes, BasisSupport, Bow, Config, Contact, Disk, GearboxVibration, Lines, Material,
+    Probe, Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
 use crate::mesh::{LineOfAction, StiffnessLaw, TransmissionError};
 
@@ -135,6 +135,8 @@ pub struct Mesh {
     pub gears: [GearAddress; 2],
     /// Line of action between them.
     pub line: LineOfAction,
+    /// Whether the teeth can part.
+    pub contact: Contact,
     /// Which motions the mesh torque follows.
     pub torque_coupling: TorqueCoupling,
     /// Stiffness over the phase, without the factor.
@@ -147,7 +149,9 @@ pub struct Mesh {
     pub transmission_error: TransmissionError,
     /// Phase at time 0, rotation angle of gear a included [pitches].
     pub start_phase: f64,
-    /// Change of the phase: signed mesh frequency [pitches/s].
+    /// Change of the phase per rotation angle of gear a: s z_a / 2 pi [pitches/rad].
+    pub pitches: f64,
+    /// Change of the phase at the mean speed: signed mesh frequency [pitches/s].
     pub phase_rate: f64,
 }
 

@@ -3,7 +3,7 @@
 use super::bearings::resolve_bearing;
 use super::rules::Rules;
 use super::{Gear, Rotor, Section};
-use crate::config::{self, BaseCircle, Config, Disk, Place, Problem};
+use crate::config::{self, BaseCircle, Config, Disk, Place, Problem, SpeedMode};
 
 /// More elements than this on one shaft make the dense eigenproblem slow and gain nothing.
 const MOST_ELEMENTS: f64 = 400.0;
@@ -66,11 +66,17 @@ pub(super) fn resolve_rotor(
         .last()
         .filter(|_| known)
         .map_or(f64::INFINITY, |section| section.end);
-    check_elements(place, rotor, length, problems);
+    let free = config.simulation.speed == SpeedMode::Free;
+    check_elements(place, rotor, length, free, problems);
     let mut bearings = Vec::new();
     for (index, bearing) in rotor.bearings.iter().enumerate() {
         let place = place.element("bearing", index, Some(&bearing.name));
-        bearings.push(resolve_bearing(&place, bearing, rotor.speed, problems));
+        bearings.push(resolve_bearing(
+            &place,
+            bearing,
+            (rotor.speed, free),
+            problems,
+        ));
     }
     let gear = |gear: &config::Gear| Gear {
         name: gear.name.clone(),
@@ -150,6 +156,7 @@ fn check_elements(
     rotor_place: &Place,
     rotor: &config::Rotor,
     length: f64,
+    free: bool,
     problems: &mut Vec<Problem>,
 ) {
     let place = |kind, index, name| rotor_place.element(kind, index, name);
@@ -223,6 +230,12 @@ fn check_elements(
         rules.on_shaft(support.position, length);
         rules.not_negative("lateral", support.lateral, "N/m");
         rules.not_negative("torsional", support.torsional, "N m/rad");
+        rules.ensure("torsional", !free || support.torsional == 0.0, || {
+            format!(
+                "must be 0 in free spin, whose basis needs the rigid rotation, found {} N m/rad",
+                support.torsional
+            )
+        });
     }
     for (index, probe) in rotor.probes.iter().enumerate() {
         let place = place("probe", index, Some(&probe.name));

@@ -11,7 +11,7 @@ use super::rotors::resolve_rotor;
 use super::rules::Rules;
 use super::speeds::{check_speeds, unequal_base_pitches};
 use super::{GearTrain, names, speed_ratios};
-use crate::config::{self, Config, Place, Problem};
+use crate::config::{self, Config, Place, Problem, SpeedMode};
 
 /// Checks a configuration against every rule. Gives the train and warnings, or all problems.
 pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Problem>> {
@@ -74,8 +74,14 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
     let mut warnings = phases::settle(config, &mut train);
     warnings.extend(rings_meshed_from_outside(&train));
     warnings.extend(open_loops(&train));
-    warnings.extend(unequal_base_pitches(&train));
-    warnings.extend(unbalanced_torques(&train));
+    let unequal = unequal_base_pitches(&train);
+    if train.simulation.speed == SpeedMode::Prescribed {
+        warnings.extend(unequal);
+        warnings.extend(unbalanced_torques(&train));
+    } else if !unequal.is_empty() {
+        // The teeth themselves carry the rotation: they have to fit.
+        return Err(unequal);
+    }
     warnings.extend(bows_without_force(&train));
     Ok((train, warnings))
 }

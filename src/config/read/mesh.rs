@@ -1,22 +1,12 @@
 //! `[[mesh]]` with its stiffness law.
 
 use super::super::document::Table;
-use super::super::{ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
+use super::super::{
+    Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling,
+};
 use super::tooth_geometry::tooth_geometry;
 
 pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
-    if table.choice(
-        "contact",
-        Some(true),
-        &[("bilateral", true), ("unilateral", false)],
-    ) == Some(false)
-    {
-        table.not_yet("contact", "contact = \"unilateral\"");
-    }
-    if table.number_or("backlash", 0.0) != 0.0 {
-        let message = "must be 0 with bilateral contact (unilateral contact is not available yet)";
-        table.problem("backlash", message);
-    }
     let consistent = TorqueCoupling::Consistent;
     let couplings = [
         ("consistent", consistent),
@@ -31,6 +21,7 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
         flank: flank(&table),
         phase: table.optional_number("phase"),
         damping: mesh_damping(&table),
+        contact: contact(&table),
         torque_coupling: table
             .choice("torque_coupling", Some(consistent), &couplings)
             .unwrap_or(consistent),
@@ -54,6 +45,22 @@ fn error_harmonic(table: Table<'_, '_>) -> ErrorHarmonic {
     };
     table.finish();
     harmonic
+}
+
+fn contact(table: &Table<'_, '_>) -> Contact {
+    let backlash = table.number_or("backlash", 0.0);
+    let contacts = [
+        ("bilateral", Contact::Bilateral),
+        ("unilateral", Contact::Unilateral { backlash }),
+    ];
+    let contact = table.choice("contact", Some(Contact::Bilateral), &contacts);
+    if contact == Some(Contact::Bilateral) && backlash != 0.0 {
+        let message = format!(
+            "must be 0 with bilateral contact, found {backlash}; backlash needs contact = \"unilateral\""
+        );
+        table.problem("backlash", message);
+    }
+    contact.unwrap_or(Contact::Bilateral)
 }
 
 fn flank(table: &Table<'_, '_>) -> Flank {

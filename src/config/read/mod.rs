@@ -5,7 +5,10 @@ mod rotor;
 mod tooth_geometry;
 
 use super::document::{Document, Lines, Table};
-use super::{Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, Start};
+use super::{
+    Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, SolverChoice,
+    SpeedMode, Start,
+};
 
 /// What a model file says, and what is wrong with it.
 #[derive(Debug)]
@@ -40,10 +43,12 @@ fn top(table: Table<'_, '_>) -> Config {
         table.not_yet("kind", "kind = \"housing\"");
     }
     table.not_yet("housing", "an embedded housing");
+    let simulation = simulation(table.table("simulation"));
+    let free = simulation.speed == SpeedMode::Free;
     let config = Config {
         name: table.string("name"),
         description: table.optional_string("description").unwrap_or_default(),
-        simulation: simulation(table.table("simulation")),
+        simulation,
         basis: table.table("basis").map(|table| {
             let basis = basis(&table);
             table.finish();
@@ -57,7 +62,7 @@ fn top(table: Table<'_, '_>) -> Config {
         rotors: table
             .tables("rotor")
             .into_iter()
-            .map(rotor::rotor)
+            .map(|table| rotor::rotor(table, free))
             .collect(),
         meshes: table.tables("mesh").into_iter().map(mesh::mesh).collect(),
         gearbox_vibration: gearbox_vibration(table.table("gearbox_vibration")),
@@ -68,30 +73,30 @@ fn top(table: Table<'_, '_>) -> Config {
 
 fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
     let defaults = Simulation {
+        speed: SpeedMode::Prescribed,
+        solver: SolverChoice::Exponential,
         start: Start::Equilibrium,
         tolerance: 1e-4,
         stop_time: 1.0,
         step_size: 1e-5,
     };
     let Some(table) = table else { return defaults };
-    if table.choice(
-        "speed",
-        Some(true),
-        &[("prescribed", true), ("free", false)],
-    ) == Some(false)
-    {
-        table.not_yet("speed", "free spin");
-    }
-    if table.choice(
-        "solver",
-        Some(true),
-        &[("newmark", true), ("exponential", false)],
-    ) == Some(false)
-    {
-        table.not_yet("solver", "the exponential solver");
-    }
+    let speeds = [
+        ("prescribed", SpeedMode::Prescribed),
+        ("free", SpeedMode::Free),
+    ];
+    let solvers = [
+        ("exponential", SolverChoice::Exponential),
+        ("newmark", SolverChoice::Newmark),
+    ];
     let starts = [("equilibrium", Start::Equilibrium), ("rest", Start::Rest)];
     let simulation = Simulation {
+        speed: table
+            .choice("speed", Some(defaults.speed), &speeds)
+            .unwrap_or(defaults.speed),
+        solver: table
+            .choice("solver", Some(defaults.solver), &solvers)
+            .unwrap_or(defaults.solver),
         start: table
             .choice("start", Some(defaults.start), &starts)
             .unwrap_or(defaults.start),

@@ -2,14 +2,19 @@
 
 use super::super::document::Table;
 use super::super::{
-    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, Rotor,
-    Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
+    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
+    Rotor, Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
 
-pub(super) fn rotor(table: Table<'_, '_>) -> Rotor {
+/// `free`: the rotation is a state, and `speed` its start value, 0 when absent.
+pub(super) fn rotor(table: Table<'_, '_>, free: bool) -> Rotor {
     let rotor = Rotor {
         name: table.string("name"),
-        speed: table.number("speed"),
+        speed: if free {
+            table.number_or("speed", 0.0)
+        } else {
+            table.number("speed")
+        },
         angle: table.number_or("angle", 0.0),
         max_element_length: table.optional_number("max_element_length"),
         lateral_damping_ratio: table.number_or("lateral_damping_ratio", 0.0),
@@ -108,6 +113,7 @@ fn bearing(table: &Table<'_, '_>) -> Bearing {
         stiffness: planar(table, "stiffness"),
         damping: planar(table, "damping"),
         at_speed,
+        nonlinear: table.table("nonlinear").map(radial_force),
     }
 }
 
@@ -139,6 +145,38 @@ fn speed_point(table: &Table<'_, '_>) -> SpeedPoint {
         stiffness: planar(table, "stiffness"),
         damping: planar(table, "damping"),
     }
+}
+
+fn radial_force(table: Table<'_, '_>) -> RadialForce {
+    type ReadLaw = fn(&Table<'_, '_>) -> RadialForce;
+    let laws: [(&str, ReadLaw); 3] = [
+        ("clearance", |table| RadialForce {
+            clearance: table.number("clearance"),
+            coefficient: table.number("stiffness"),
+            exponent: 1.0,
+        }),
+        ("cubic", |table| RadialForce {
+            clearance: table.number_or("clearance", 0.0),
+            coefficient: table.number("coefficient"),
+            exponent: 3.0,
+        }),
+        ("hertz", |table| RadialForce {
+            clearance: table.number_or("clearance", 0.0),
+            coefficient: table.number("coefficient"),
+            exponent: table.number_or("exponent", 1.5),
+        }),
+    ];
+    // Without a law nobody can say which keys are known: the table is not finished.
+    let Some(read_law) = table.choice("law", None, &laws) else {
+        return RadialForce {
+            clearance: 0.0,
+            coefficient: 0.0,
+            exponent: 1.0,
+        };
+    };
+    let force = read_law(&table);
+    table.finish();
+    force
 }
 
 /// yy defaults to xx, cross terms to zero, an absent table to nothing.

@@ -1,47 +1,66 @@
 //! Time integration of a second-order system whose linear part falls into small blocks that a few
-//! scalar springs couple.
+//! scalar forces couple.
 //!
 //! ```text
 //!   q'' + D q' + K q = f(t) - sum over m of b_m F_m         unit mass matrix; D, K block diagonal
-//!   F_m = k_m(t) d_m + c_m d_m',   d_m = w_m q              one spring per coupling, rank one
+//!   F = F(t, d, d'),   d_m = w_m q                          one force per coupling, along one row
 //! ```
 //!
-//! The system's constant part is a [`System`]; what varies in time is asked of a [`Forcing`]. Between two
-//! neighbouring breakpoints every k_m and f is smooth, and steps end exactly there.
+//! The system's constant part is a [`System`]; what varies is asked of a [`Forcing`]. Its laws are smooth
+//! **pieces**: some end at times known in advance (breakpoints), others when the motion ends them (a contact
+//! opens); steps end exactly there. Two integrators know how to step: [`Exponential`] and [`Newmark`].
 //! Knows no gears, no modes and no files.
 
+mod control;
+mod error;
+mod exponential;
+mod integrator;
+mod march;
 mod newmark;
-
-use core::fmt;
+mod row;
 
 use nalgebra::DMatrix;
 
-use crate::linalg::{add_scaled, dot};
-
+pub use error::StepError;
+pub use exponential::Exponential;
+pub use integrator::Integrator;
 pub use newmark::Newmark;
+pub use row::Row;
+
+use control::Control;
 
 /// The constant part of the equations of motion.
 #[derive(Debug, Clone, Default)]
 pub struct System {
     /// Number of coordinates.
     pub size: usize,
-    /// The diagonal blocks, contiguous and in order.
+    /// The diagonal blocks, contiguous and in order, at the first values of the slow parameters.
     pub blocks: Vec<Block>,
-    /// The springs between the blocks.
+    /// The forces between and on the blocks.
     pub couplings: Vec<Coupling>,
-    /// Displacements whose error is controlled.
+    /// Number of laws that have pieces.
+    pub laws: usize,
+    /// First values of the slow parameters, on which the blocks may depend.
+    pub slow: Vec<f64>,
+    /// What the tolerance holds for.
     pub monitors: Vec<Monitor>,
 }
 
-/// A displacement whose error is controlled relative to its own RMS over the run.
+/// Forces whose error is controlled relative to their own RMS over the run.
 #[derive(Debug, Clone)]
 pub struct Monitor {
-    /// The displacement is `row * q`.
+    /// The couplings that make up the force; none for a displacement that only the linear part moves.
+    pub couplings: core::ops::Range<usize>,
+    /// The displacement that the force belongs to is `row * q`.
     pub row: Row,
     /// Damping ratio of the most lightly damped fast motion in it: how long an error of phase lasts.
     pub damping_ratio: f64,
-    /// Damping per stiffness of the force that belongs to the displacement [s].
+    /// Circular frequency that the force gives the displacement by itself [rad/s].
+    pub frequency: f64,
+    /// Damping per stiffness of the force [s].
     pub rate_weight: f64,
+    /// Forces below this count as zero.
+    pub floor: f64,
 }
 
 /// One diagonal block: coordinates `offset .. offset + n`, damping and stiffness n x n.
@@ -55,55 +74,97 @@ pub struct Block {
     pub stiffness: DMatrix<f64>,
 }
 
-/// A scalar spring: deflection `row * q`, force on the coordinates `-column * F`.
+/// A scalar force: deflection `row * q`, force on the coordinates `-column * F`.
 #[derive(Debug, Clone)]
 pub struct Coupling {
-    /// w.
+    /// w; empty where the force follows from time or from other couplings alone.
     pub row: Row,
-    /// b; equal to w where the spring follows from a potential.
+    /// b; equal to w where the force follows from a potential, empty where it only observes.
     pub column: Row,
 }
 
-/// A row vector that is zero outside a few blocks.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Row {
-    parts: Vec<Part>,
+/// What the couplings see at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    /// Time [s].
+    pub time: f64,
+    /// d of every coupling.
+    pub deflection: &'a [f64],
+    /// d' of every coupling.
+    pub rate: &'a [f64],
+    /// The values of the slow parameters that the blocks in use belong to.
+    pub slow: &'a [f64],
 }
 
-#[derive(Debug, Clone, PartialEq)]
-struct Part {
-    block: usize,
-    offset: usize,
-    values: Vec<f64>,
-}
-
-/// What varies in time.
+/// What varies.
 pub trait Forcing {
-    /// f(t): overwrites `load`, one entry per coordinate.
-    fn load_into(&self, time: f64, load: &mut [f64]);
-    /// The first time clearly after `time` at which some k or f is not smooth; infinity when there is none.
+    /// The part of f that is the same throughout a call, one entry per coordinate.
+    fn held(&self) -> &[f64];
+    /// The parts of f that turn with fixed frequencies.
+    fn harmonics(&self) -> &[Harmonic];
+    /// The first time clearly after `time` at which the piece of some law ends whatever the motion; infinity
+    /// when there is none.
     fn next_breakpoint(&self, time: f64) -> f64;
-    /// For each coupling, the smooth piece of its law that `time` lies in.
-    fn pieces_into(&self, time: f64, pieces: &mut [Piece]);
-    /// The law of a coupling at `time`, continued smoothly from the given piece.
-    fn spring(&self, coupling: usize, piece: Piece, time: f64) -> Spring;
+    /// The piece of every law in a stretch that begins with `start` and contains the time `inside`.
+    fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]);
+    /// F of every coupling, each law continued smoothly from its piece.
+    fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]);
+    /// For every coupling how its own force depends on its own deflection and rate, as far as that is fast.
+    fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]);
+    /// Positive while the motion keeps a law in its piece; infinity where only time ends the piece.
+    fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64;
+    /// The piece that follows when the motion has ended one.
+    fn next_piece(&self, law: usize, piece: Piece, at: Instant<'_>) -> Piece;
+    /// The slow parameters in this motion.
+    fn slow_into(&self, position: &[f64], velocity: &[f64], slow: &mut [f64]);
+    /// Whether the blocks should be made anew: `used` are the values they belong to, `now` the present ones.
+    fn is_stale(&self, used: &[f64], now: &[f64]) -> bool;
+    /// Overwrites the blocks with those of these slow parameters.
+    fn blocks_into(&self, slow: &[f64], blocks: &mut [Block]);
+
+    /// f(t): overwrites `load`, one entry per coordinate.
+    fn load_into(&self, time: f64, load: &mut [f64]) {
+        load.copy_from_slice(self.held());
+        for harmonic in self.harmonics() {
+            let (sine, cosine) = libm::sincos(harmonic.angle(time));
+            let target = &mut load[harmonic.offset..];
+            for ((entry, c), s) in target.iter_mut().zip(&harmonic.cosine).zip(&harmonic.sine) {
+                *entry += c * cosine + s * sine;
+            }
+        }
+    }
 }
 
-/// A smooth piece of a periodic law; only the [`Forcing`] that made it can read it.
+/// A load that turns with a fixed circular frequency: cosine cos(w t + phase) + sine sin(w t + phase).
+#[derive(Debug, Clone)]
+pub struct Harmonic {
+    /// w [rad/s].
+    pub frequency: f64,
+    /// Angle at time 0 [rad].
+    pub phase: f64,
+    /// First coordinate of both parts.
+    pub offset: usize,
+    /// Load at the angle 0.
+    pub cosine: Vec<f64>,
+    /// Load at a quarter turn.
+    pub sine: Vec<f64>,
+}
+
+/// A smooth piece of a law; only the [`Forcing`] that made it can read it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Piece {
-    /// Where the argument of the law is counted from: the period the piece lies in.
+    /// Where the argument of a periodic law is counted from: the period the piece lies in.
     pub origin: f64,
-    /// Which piece of the period.
+    /// Which piece.
     pub index: usize,
 }
 
-/// A coupling at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A tangent of a force.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Spring {
-    /// k.
+    /// dF/dd.
     pub stiffness: f64,
-    /// c.
+    /// dF/dd'.
     pub damping: f64,
 }
 
@@ -116,8 +177,10 @@ pub struct State {
     pub position: Vec<f64>,
     /// q'.
     pub velocity: Vec<f64>,
-    /// The solver's own solutions, from which that value comes.
-    tracks: [Track; 2],
+    /// The solver's own solutions, from which that value comes; none where it is the solution.
+    tracks: Vec<Track>,
+    /// The slow parameters that the blocks in use belong to.
+    slow: Vec<f64>,
     control: Control,
 }
 
@@ -128,19 +191,6 @@ struct Track {
     velocity: Vec<f64>,
 }
 
-/// Memory of the step control; one entry per monitor in each list.
-#[derive(Debug, Clone, PartialEq)]
-struct Control {
-    /// Step that the last error estimates ask for [s]; 0 before the first step.
-    wanted_step: f64,
-    /// Time over which the mean squares run [s].
-    elapsed: f64,
-    /// Time integral of the square of the displacement.
-    squares: Vec<f64>,
-    /// Recent peaks of the displacement's second and fourth derivatives.
-    peaks: Vec<[f64; 2]>,
-}
-
 /// Work done so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
@@ -148,61 +198,45 @@ pub struct Counts {
     pub steps: u64,
     /// Steps repeated because their error was too large.
     pub rejected: u64,
-    /// Step lengths for which operators had to be computed.
+    /// Step lengths for which coefficients had to be computed.
     pub factorizations: u64,
-}
-
-/// Why an advance failed; the state is then the one before it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StepError {
-    /// The error bound would need steps that no longer change the time.
-    StepTooSmall {
-        /// Where [s].
-        time: f64,
-        /// The step asked for [s].
-        step: f64,
-    },
-    /// The call asks for more work than one call should do.
-    TooManySteps {
-        /// How far it came [s].
-        time: f64,
-        /// Steps taken.
-        steps: u64,
-    },
-    /// The solution left the range of numbers, as that of an unstable system does in the end.
-    NotFinite {
-        /// Where [s].
-        time: f64,
-    },
-    /// The step's equations have no unique solution.
-    Singular {
-        /// Where [s].
-        time: f64,
-        /// The step [s].
-        step: f64,
-    },
+    /// Evaluations of all forces.
+    pub evaluations: u64,
+    /// Pieces that the motion ended.
+    pub events: u64,
+    /// Times that the blocks were made anew.
+    pub refreshes: u64,
 }
 
 impl System {
-    /// The state with these displacements and no velocity at `time`; one entry per coordinate.
-    pub fn state_at(&self, time: f64, position: Vec<f64>) -> State {
-        let velocity = vec![0.0; self.size];
+    /// The state with these displacements and velocities at `time`, one entry per coordinate, for a solver
+    /// that carries `tracks` solutions of its own.
+    fn state_at(&self, time: f64, position: Vec<f64>, velocity: Vec<f64>, tracks: usize) -> State {
         let track = Track {
             position: position.clone(),
             velocity: velocity.clone(),
-        };
-        let control = Control {
-            wanted_step: 0.0,
-            elapsed: 0.0,
-            squares: vec![0.0; self.monitors.len()],
-            peaks: vec![[0.0; 2]; self.monitors.len()],
         };
         State {
             time,
             position,
             velocity,
-            tracks: [track.clone(), track],
-            control,
+            tracks: vec![track; tracks],
+            slow: self.slow.clone(),
+            control: Control::new(self.monitors.len()),
+        }
+    }
+
+    /// d and d' of every coupling.
+    fn deflections_into(
+        &self,
+        position: &[f64],
+        velocity: &[f64],
+        deflection: &mut [f64],
+        rate: &mut [f64],
+    ) {
+        for ((coupling, deflection), rate) in self.couplings.iter().zip(deflection).zip(rate) {
+            *deflection = coupling.row.dot(position);
+            *rate = coupling.row.dot(velocity);
         }
     }
 }
@@ -213,16 +247,39 @@ impl State {
         self.time = other.time;
         self.position.clone_from(&other.position);
         self.velocity.clone_from(&other.velocity);
-        self.control.wanted_step = other.control.wanted_step;
-        self.control.elapsed = other.control.elapsed;
-        self.control.squares.clone_from(&other.control.squares);
-        self.control.peaks.clone_from(&other.control.peaks);
+        self.slow.clone_from(&other.slow);
+        self.control.copy_from(&other.control);
         copy_tracks(&mut self.tracks, &other.tracks);
     }
 }
 
-/// Copies both solutions without allocation, which the derived `clone_from` would need.
-fn copy_tracks(target: &mut [Track; 2], source: &[Track; 2]) {
+impl Harmonic {
+    /// w t + phase [rad].
+    pub fn angle(&self, time: f64) -> f64 {
+        self.frequency * time + self.phase
+    }
+
+    /// Cosine and sine load of a block; `None` where both are zero.
+    fn on_block(&self, block: &Block) -> Option<[Vec<f64>; 2]> {
+        let part = |load: &[f64]| -> Vec<f64> {
+            let entry = |i: usize| {
+                i.checked_sub(self.offset)
+                    .and_then(|i| load.get(i))
+                    .copied()
+            };
+            block.range().map(|i| entry(i).unwrap_or(0.0)).collect()
+        };
+        let parts = [part(&self.cosine), part(&self.sine)];
+        parts
+            .iter()
+            .flatten()
+            .any(|&value| value != 0.0)
+            .then_some(parts)
+    }
+}
+
+/// Copies solutions without allocation, which the derived `clone_from` would need.
+fn copy_tracks(target: &mut [Track], source: &[Track]) {
     for (target, source) in target.iter_mut().zip(source) {
         target.position.clone_from(&source.position);
         target.velocity.clone_from(&source.velocity);
@@ -243,103 +300,5 @@ impl Block {
     /// The block's coordinates.
     pub fn range(&self) -> core::ops::Range<usize> {
         self.offset..self.offset + self.len()
-    }
-}
-
-impl Row {
-    /// A row over the coordinates of one block: number `block`, first coordinate `offset`.
-    pub fn new(block: usize, offset: usize, values: Vec<f64>) -> Row {
-        Row {
-            parts: vec![Part {
-                block,
-                offset,
-                values,
-            }],
-        }
-    }
-
-    /// This row grows by `scale` times another one.
-    pub fn add(&mut self, scale: f64, other: &Row) {
-        for part in &other.parts {
-            match self.parts.iter_mut().find(|own| own.block == part.block) {
-                Some(own) => add_scaled(scale, &part.values, &mut own.values),
-                None => {
-                    let values = part.values.iter().map(|value| scale * value).collect();
-                    self.parts.push(Part { values, ..*part });
-                }
-            }
-        }
-    }
-
-    /// The entry of one coordinate.
-    pub fn entry(&self, coordinate: usize) -> f64 {
-        let part = self
-            .parts
-            .iter()
-            .find(|part| part.range().contains(&coordinate));
-        part.map_or(0.0, |part| part.values[coordinate - part.offset])
-    }
-
-    /// All entries of a system of this size.
-    pub fn to_dense(&self, size: usize) -> Vec<f64> {
-        let mut dense = vec![0.0; size];
-        self.add_to(1.0, &mut dense);
-        dense
-    }
-
-    /// row * q.
-    pub fn dot(&self, q: &[f64]) -> f64 {
-        self.parts
-            .iter()
-            .map(|part| dot(&part.values, &q[part.range()]))
-            .sum()
-    }
-
-    /// Product with another row: only blocks that both touch contribute.
-    pub fn dot_row(&self, other: &Row) -> f64 {
-        let mut sum = 0.0;
-        for mine in &self.parts {
-            for theirs in other.parts.iter().filter(|part| part.block == mine.block) {
-                sum += dot(&mine.values, &theirs.values);
-            }
-        }
-        sum
-    }
-
-    /// q += scale * row'.
-    pub fn add_to(&self, scale: f64, q: &mut [f64]) {
-        for part in &self.parts {
-            add_scaled(scale, &part.values, &mut q[part.range()]);
-        }
-    }
-}
-
-impl Part {
-    fn range(&self) -> core::ops::Range<usize> {
-        self.offset..self.offset + self.values.len()
-    }
-}
-
-impl fmt::Display for StepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StepError::StepTooSmall { time, step } => write!(
-                f,
-                "at time {time} s the tolerance asks for a step of {step:e} s, too small to be taken; \
-                 a larger tolerance may help"
-            ),
-            StepError::TooManySteps { time, steps } => write!(
-                f,
-                "after {steps} steps only time {time} s is reached; use smaller communication steps"
-            ),
-            StepError::NotFinite { time } => write!(
-                f,
-                "the solution grew beyond all numbers at time {time} s; the system is probably unstable"
-            ),
-            StepError::Singular { time, step } => write!(
-                f,
-                "the equations of the step of {step:e} s at time {time} s have no unique solution"
-            ),
-        }
     }
 }

@@ -57,6 +57,7 @@ pub(super) fn control_error(
             row,
             damping_ratio,
             rate_weight,
+            ..
         },
     ) in system.monitors.iter().enumerate()
     {

@@ -2,12 +2,19 @@
 
 use nalgebra::DMatrix;
 
-use super::super::{Block, Coupling, Forcing, Part, Piece, Row, StepError, System, Track};
+use super::super::march::{Span, Task, canonical};
+use super::super::row::Part;
+use super::super::{
+    Block, Coupling, Forcing, Instant, Piece, Row, Spring, StepError, System, Track,
+};
 use crate::linalg::{add_scaled, invert_in_place, multiply_add, solve_in_place};
 
 /// Step operators are kept for this many step lengths at the most, and within this memory [bytes].
 const OPERATORS: usize = 48;
 const OPERATOR_MEMORY: usize = 16 << 20;
+/// Iterations after which the forces of a step count as not to be found, and what counts as found.
+const MOST_ITERATIONS: usize = 50;
+const SETTLED: f64 = 1e-12;
 
 /// What both solutions share.
 #[derive(Debug, Clone)]
@@ -15,8 +22,14 @@ pub(super) struct Kernel {
     operators: Vec<Operators>,
     next_operator: usize,
     factorizations: u64,
-    pieces: Vec<Piece>,
+    evaluations: u64,
     forces: Vec<f64>,
+    /// Forces by the laws, then the change of the forces.
+    change: Vec<f64>,
+    tangents: Vec<Spring>,
+    /// Deflections and rates without forces, and with the present ones.
+    predicted: [Vec<f64>; 2],
+    present: [Vec<f64>; 2],
     matrix: DMatrix<f64>,
     swaps: Vec<usize>,
 }
@@ -29,14 +42,6 @@ pub(super) struct Work {
     predicted_position: Vec<f64>,
     predicted_velocity: Vec<f64>,
     load: Vec<f64>,
-}
-
-/// One step: from when, to when, how long.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Span {
-    pub(super) start: f64,
-    pub(super) end: f64,
-    pub(super) step: f64,
 }
 
 /// What depends on the step length alone.
@@ -80,8 +85,12 @@ impl Kernel {
             operators: vec![operators; affordable.clamp(4, OPERATORS)],
             next_operator: 0,
             factorizations: 0,
-            pieces: vec![Piece::default(); couplings],
+            evaluations: 0,
             forces: vec![0.0; couplings],
+            change: vec![0.0; couplings],
+            tangents: vec![Spring::default(); couplings],
+            predicted: [vec![0.0; couplings], vec![0.0; couplings]],
+            present: [vec![0.0; couplings], vec![0.0; couplings]],
             matrix: DMatrix::zeros(couplings, couplings),
             swaps: vec![0; largest],
         }
@@ -92,20 +101,24 @@ impl Kernel {
         self.factorizations
     }
 
-    /// From now on the laws are those of the pieces that `time` lies in.
-    pub(super) fn enter_pieces(&mut self, forcing: &impl Forcing, time: f64) {
-        forcing.pieces_into(time, &mut self.pieces);
+    /// Evaluations of all forces.
+    pub(super) fn evaluations(&self) -> u64 {
+        self.evaluations
     }
 
     /// a0 = f - D v - K q - sum over m of b_m F_m, from the right of a breakpoint.
-    pub(super) fn evaluate_acceleration(
-        &self,
-        system: &System,
-        forcing: &impl Forcing,
+    pub(super) fn evaluate_acceleration<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
         track: &Track,
-        time: f64,
+        state: (f64, &[f64]),
+        pieces: &[Piece],
         work: &mut Work,
     ) {
+        let Task {
+            system, forcing, ..
+        } = task;
+        let (time, slow) = state;
         let acceleration = &mut work.acceleration;
         forcing.load_into(time, acceleration);
         for block in &system.blocks {
@@ -114,23 +127,33 @@ impl Kernel {
             multiply_add(-1.0, &block.damping, &track.velocity[range.clone()], target);
             multiply_add(-1.0, &block.stiffness, &track.position[range], target);
         }
-        for (m, Coupling { row, column }) in system.couplings.iter().enumerate() {
-            let spring = forcing.spring(m, self.pieces[m], time);
-            let force = spring.stiffness * row.dot(&track.position)
-                + spring.damping * row.dot(&track.velocity);
+        let [deflection, rate] = &mut self.present;
+        system.deflections_into(&track.position, &track.velocity, deflection, rate);
+        let at = Instant {
+            time,
+            deflection,
+            rate,
+            slow,
+        };
+        forcing.forces_into(at, pieces, &mut self.forces);
+        self.evaluations += 1;
+        for (Coupling { column, .. }, force) in system.couplings.iter().zip(&self.forces) {
             column.add_to(-force, acceleration);
         }
     }
 
     /// One step: leaves a1, q~, v~ in the workspace and the track untouched.
-    pub(super) fn step(
+    pub(super) fn step<F: Forcing>(
         &mut self,
-        system: &System,
-        forcing: &impl Forcing,
-        track: &Track,
+        task: Task<'_, F>,
+        (track, slow): (&Track, &[f64]),
         span: Span,
+        pieces: &[Piece],
         work: &mut Work,
     ) -> Result<(), StepError> {
+        let Task {
+            system, forcing, ..
+        } = task;
         let index = self.operators_for(system, span)?;
         let operators = &self.operators[index];
         let h = operators.step;
@@ -156,27 +179,78 @@ impl Kernel {
             multiply_add(1.0, inverse, load, y);
         }
         for (m, Coupling { row, .. }) in system.couplings.iter().enumerate() {
-            let spring = forcing.spring(m, self.pieces[m], span.end);
             let y = row.dot(&work.next_acceleration);
-            let deflection = row.dot(&work.predicted_position) + 0.25 * h * h * y;
-            let rate = row.dot(&work.predicted_velocity) + 0.5 * h * y;
-            self.forces[m] = spring.stiffness * deflection + spring.damping * rate;
-            let kappa = 0.25 * h * h * spring.stiffness + 0.5 * h * spring.damping;
-            for l in 0..system.couplings.len() {
-                let identity = if l == m { 1.0 } else { 0.0 };
-                self.matrix[(m, l)] = identity + kappa * operators.compliance[(m, l)];
-            }
+            self.predicted[0][m] = row.dot(&work.predicted_position) + 0.25 * h * h * y;
+            self.predicted[1][m] = row.dot(&work.predicted_velocity) + 0.5 * h * y;
         }
-        if !solve_in_place(&mut self.matrix, &mut self.forces) {
-            return Err(StepError::Singular {
-                time: span.start,
-                step: span.step,
-            });
-        }
-        for (response, &force) in operators.responses.iter().zip(&self.forces) {
+        self.solve_forces(task, slow, span, pieces, index)?;
+        let responses = &self.operators[index].responses;
+        for (response, &force) in responses.iter().zip(&self.forces) {
             response.add_to(-force, &mut work.next_acceleration);
         }
         Ok(())
+    }
+
+    /// F = F(d~ - h^2/4 Z F, v~ - h/2 Z F) by Newton's method with the tangents of the laws.
+    fn solve_forces<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        slow: &[f64],
+        span: Span,
+        pieces: &[Piece],
+        index: usize,
+    ) -> Result<(), StepError> {
+        let singular = StepError::Singular {
+            time: span.start,
+            step: span.step,
+        };
+        let Operators {
+            step: h,
+            compliance,
+            ..
+        } = &self.operators[index];
+        let (quarter, half) = (0.25 * h * h, 0.5 * h);
+        self.forces.fill(0.0);
+        for _ in 0..MOST_ITERATIONS {
+            for (present, predicted) in self.present.iter_mut().zip(&self.predicted) {
+                present.copy_from_slice(predicted);
+            }
+            for (column, force) in compliance.column_iter().zip(&self.forces) {
+                add_scaled(-quarter * force, column.as_slice(), &mut self.present[0]);
+                add_scaled(-half * force, column.as_slice(), &mut self.present[1]);
+            }
+            let at = Instant {
+                time: span.end,
+                deflection: &self.present[0],
+                rate: &self.present[1],
+                slow,
+            };
+            task.forcing.forces_into(at, pieces, &mut self.change);
+            task.forcing.tangents_into(at, pieces, &mut self.tangents);
+            self.evaluations += 1;
+            let sizes = self.change.iter().map(|force| force.abs());
+            let largest = sizes.fold(0.0, f64::max);
+            for (m, tangent) in self.tangents.iter().enumerate() {
+                self.change[m] -= self.forces[m];
+                let kappa = quarter * tangent.stiffness + half * tangent.damping;
+                for l in 0..self.forces.len() {
+                    let identity = if l == m { 1.0 } else { 0.0 };
+                    self.matrix[(m, l)] = identity + kappa * compliance[(m, l)];
+                }
+            }
+            if !solve_in_place(&mut self.matrix, &mut self.change) {
+                return Err(singular);
+            }
+            let mut settled = true;
+            for (force, change) in self.forces.iter_mut().zip(&self.change) {
+                *force += change;
+                settled &= change.abs() <= SETTLED * force.abs().max(SETTLED * largest);
+            }
+            if settled {
+                return Ok(());
+            }
+        }
+        Err(singular)
     }
 
     /// The operators for this step length, computed unless they are kept from earlier steps.
@@ -225,14 +299,6 @@ pub(super) fn accept(track: &mut Track, work: &mut Work, step: f64) {
     core::mem::swap(&mut track.velocity, &mut work.predicted_velocity);
     add_scaled(0.5 * h, &work.next_acceleration, &mut track.velocity);
     core::mem::swap(&mut work.acceleration, &mut work.next_acceleration);
-}
-
-/// The step length with its last 22 bits rounded away (relative 1e-9): communication points computed by
-/// additions then lead to the same operators, whatever was computed before.
-fn canonical(step: f64) -> f64 {
-    const DROPPED: u32 = 22;
-    let bits = step.to_bits() + (1 << (DROPPED - 1));
-    f64::from_bits(bits >> DROPPED << DROPPED)
 }
 
 impl Operators {
@@ -286,18 +352,5 @@ impl Operators {
             }
         }
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn canonical_steps_absorb_rounding_of_communication_points() {
-        let exact = canonical(2e-5);
-        // At 10 s a difference of times carries errors of 1e-15 s.
-        assert_eq!(canonical((10.0 + 2e-5) - 10.0), exact);
-        assert!((exact / 2e-5 - 1.0).abs() < 1e-9);
     }
 }

@@ -1,0 +1,109 @@
+//! One diagonal block as a first-order system in decoupled states.
+//!
+//! ```text
+//!   x = [q; q'],  x' = A x + [0; p],  A = [0, I; -K, -D]
+//!   x = V eta,    eta' = B eta + V^-1 [0; p],   B block diagonal
+//! ```
+//!
+//! Before A is taken apart the displacements are scaled with sqrt(K_ii), so that both halves of x measure
+//! energy: without damping A is then skew-symmetric and V orthogonal.
+
+use nalgebra::{Complex, DMatrix};
+
+use super::super::{Block, System};
+use crate::linalg::{Group, decouple};
+
+/// Softer coordinates than this [rad^2/s^2] are scaled like it.
+const SOFTEST: f64 = 1.0;
+
+/// A block with everything that acts on it and looks at it.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    /// The block's coordinates.
+    pub(super) coordinates: core::ops::Range<usize>,
+    /// V: displacements on top, velocities below, 2n x 2n.
+    pub(super) shapes: DMatrix<f64>,
+    /// V^-1, 2n x 2n.
+    pub(super) inverse: DMatrix<f64>,
+    /// B.
+    pub(super) groups: Vec<Group>,
+    /// The couplings whose rows look at the block.
+    pub(super) sensors: Vec<usize>,
+    /// Their deflections and rates per eta: one column each, 2n x sensors.
+    pub(super) sensor_rows: [DMatrix<f64>; 2],
+    /// The couplings whose forces act on the block.
+    pub(super) actuators: Vec<usize>,
+    /// V^-1 [0; b] of these, 2n x actuators.
+    pub(super) actuator_columns: DMatrix<f64>,
+    /// The harmonics that act on the block: number, and V^-1 [0; cosine - i sine].
+    pub(super) harmonics: Vec<(usize, Vec<Complex<f64>>)>,
+}
+
+impl Part {
+    /// Takes block number `index` apart. `harmonics`: cosine and sine loads of the block with their numbers.
+    pub(super) fn new(
+        system: &System,
+        index: usize,
+        block: &Block,
+        harmonics: &[(usize, Vec<f64>, Vec<f64>)],
+    ) -> Part {
+        let n = block.len();
+        let scale: Vec<f64> = (0..n)
+            .map(|i| block.stiffness[(i, i)].max(SOFTEST).sqrt())
+            .collect();
+        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+        for i in 0..n {
+            matrix[(i, n + i)] = scale[i];
+            for j in 0..n {
+                matrix[(n + i, j)] = -block.stiffness[(i, j)] / scale[j];
+                matrix[(n + i, n + j)] = -block.damping[(i, j)];
+            }
+        }
+        let mut decoupled = decouple(&matrix);
+        for (i, scale) in scale.iter().enumerate() {
+            decoupled.shapes.row_mut(i).scale_mut(1.0 / scale);
+            decoupled.inverse.column_mut(i).scale_mut(*scale);
+        }
+        let (shapes, inverse) = (decoupled.shapes, decoupled.inverse);
+        let input = inverse.columns(n, n);
+        let touching = |rows: &dyn Fn(usize) -> Option<Vec<f64>>| -> (Vec<usize>, Vec<Vec<f64>>) {
+            (0..system.couplings.len())
+                .filter_map(|coupling| Some((coupling, rows(coupling)?)))
+                .unzip()
+        };
+        let (sensors, rows) = touching(&|coupling| system.couplings[coupling].row.in_block(index));
+        let (actuators, columns) =
+            touching(&|coupling| system.couplings[coupling].column.in_block(index));
+        let as_columns =
+            |vectors: &[Vec<f64>]| DMatrix::from_fn(n, vectors.len(), |i, j| vectors[j][i]);
+        let rows = as_columns(&rows);
+        let in_states = |load: &[f64]| input * nalgebra::DVector::from_row_slice(load);
+        let harmonics = harmonics
+            .iter()
+            .map(|(number, cosine, sine)| {
+                let (cosine, sine) = (in_states(cosine), in_states(sine));
+                let load = cosine.iter().zip(sine.iter());
+                (*number, load.map(|(c, s)| Complex::new(*c, -*s)).collect())
+            })
+            .collect();
+        Part {
+            coordinates: block.range(),
+            sensor_rows: [
+                shapes.rows(0, n).transpose() * &rows,
+                shapes.rows(n, n).transpose() * &rows,
+            ],
+            actuator_columns: input * as_columns(&columns),
+            groups: decoupled.groups,
+            shapes,
+            inverse,
+            sensors,
+            actuators,
+            harmonics,
+        }
+    }
+
+    /// Number of states 2n.
+    pub(super) fn len(&self) -> usize {
+        self.shapes.ncols()
+    }
+}

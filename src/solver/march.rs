@@ -1,0 +1,296 @@
+//! How a solver gets from one communication point to the next: smooth stretches, equal steps, events.
+//!
+//! ```text
+//!   advance_to(until)
+//!     stretch   up to the next breakpoint known in advance, or `until`      laws choose their pieces
+//!       steps   equal ones, as long as the control of the method wants       replanned when it changes its mind
+//!         event   the motion ends a piece inside a step: the step is repeated to end there, the next piece follows
+//! ```
+//!
+//! Knows no method: what a step is and how good it was, a [`Method`] says.
+
+use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
+
+/// After this many steps of one call their average length must be useful [s]: no machine vibrates in the GHz.
+const PATIENCE: u64 = 1_000_000;
+const SMALLEST_USEFUL_STEP: f64 = 1e-11;
+/// No call takes more steps: some minutes of work.
+const MOST_STEPS: u64 = 100_000_000;
+/// An event at the very start of a step still advances by this part of it.
+const LEAST_ADVANCE: f64 = 1e-6;
+/// A stretch begins with a guess of this part of it.
+const FIRST_STEP: f64 = 1.0 / 16.0;
+
+/// What stays the same during one call.
+#[derive(Debug)]
+pub(super) struct Task<'a, F> {
+    pub(super) system: &'a System,
+    pub(super) forcing: &'a F,
+    pub(super) tolerance: f64,
+}
+
+// Deriving would ask the same of F.
+impl<F> Clone for Task<'_, F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F> Copy for Task<'_, F> {}
+
+/// One step: from when, to when, how long.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Span {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) step: f64,
+}
+
+impl Span {
+    /// The time at a part of the step.
+    pub(super) fn at(&self, part: f64) -> f64 {
+        if part == 1.0 {
+            self.end
+        } else {
+            self.start + part * self.step
+        }
+    }
+}
+
+/// What became of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Outcome {
+    /// The state is at the end of the step.
+    Accepted {
+        /// Length the next step should have relative to this one.
+        ratio: f64,
+    },
+    /// The state is unchanged: the step was too long.
+    Rejected {
+        /// Length the step should have had relative to this one.
+        ratio: f64,
+    },
+    /// The state is unchanged: the motion ends the piece of a law first.
+    Interrupted {
+        /// The law.
+        law: usize,
+        /// When [s].
+        time: f64,
+    },
+}
+
+/// A way to take steps.
+pub(super) trait Method {
+    /// Looks at the state: what the couplings see.
+    fn observe<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State);
+    /// What the couplings see in the state observed, or reached by a step since.
+    fn instant<'a>(&'a self, state: &'a State) -> Instant<'a>;
+    /// Prepares for steps from there with these pieces.
+    fn begin<F: Forcing>(&mut self, task: Task<'_, F>, state: &State, pieces: &[Piece]);
+    /// Tries a step. `landing` is the law whose piece ends with the step.
+    fn try_step<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        state: &mut State,
+        span: Span,
+        pieces: &[Piece],
+        landing: Option<usize>,
+    ) -> Result<Outcome, StepError>;
+}
+
+/// The way from point to point with its workspace.
+#[derive(Debug, Clone)]
+pub(super) struct March {
+    pieces: Vec<Piece>,
+    /// Steps tried since `since`, the start of the present call.
+    tried: u64,
+    since: f64,
+    /// Events so far.
+    pub(super) events: u64,
+}
+
+impl March {
+    pub(super) fn new(system: &System) -> March {
+        March {
+            pieces: vec![Piece::default(); system.laws],
+            tried: 0,
+            since: 0.0,
+            events: 0,
+        }
+    }
+
+    /// Work done, with the events.
+    pub(super) fn counts(&self, counts: Counts) -> Counts {
+        Counts {
+            events: self.events,
+            ..counts
+        }
+    }
+
+    /// Advances the state to exactly `until`, which lies ahead. After an error the state means nothing.
+    pub(super) fn advance<F: Forcing>(
+        &mut self,
+        method: &mut impl Method,
+        task: Task<'_, F>,
+        state: &mut State,
+        until: f64,
+    ) -> Result<(), StepError> {
+        (self.tried, self.since) = (0, state.time);
+        // Less than rounding lets times differ is no stretch of time.
+        let rounding = 4.0 * f64::EPSILON * until.abs();
+        while state.time < until - rounding {
+            let next = task.forcing.next_breakpoint(state.time + rounding);
+            let stop = if next < until - rounding { next } else { until };
+            let inside = 0.5 * (state.time + stop);
+            method.observe(task, state);
+            let start = method.instant(state);
+            task.forcing.enter(start, inside, &mut self.pieces);
+            method.begin(task, state, &self.pieces);
+            self.cross_smooth_stretch(method, task, state, stop)?;
+        }
+        state.time = until;
+        Ok(())
+    }
+
+    /// From the state's time to `stop` with equal steps, replanned when the method asks for it.
+    fn cross_smooth_stretch<F: Forcing>(
+        &mut self,
+        method: &mut impl Method,
+        task: Task<'_, F>,
+        state: &mut State,
+        stop: f64,
+    ) -> Result<(), StepError> {
+        if state.control.wanted_step == 0.0 {
+            state.control.wanted_step = (stop - state.time) * FIRST_STEP;
+        }
+        while state.time < stop {
+            let (start, length) = (state.time, stop - state.time);
+            let count = equal_steps(length / state.control.wanted_step);
+            let step = length / count as f64;
+            if start + 0.5 * step == start {
+                return Err(StepError::StepTooSmall { time: start, step });
+            }
+            for number in 1..=count {
+                let last = number == count;
+                let end = if last {
+                    stop
+                } else {
+                    start + length * (number as f64 / count as f64)
+                };
+                let span = Span {
+                    start: state.time,
+                    end,
+                    step,
+                };
+                if self.take_step(method, task, state, span, last)? {
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// One step, or a part of it up to an event. Gives whether the rest of the stretch has to be planned anew.
+    fn take_step<F: Forcing>(
+        &mut self,
+        method: &mut impl Method,
+        task: Task<'_, F>,
+        state: &mut State,
+        span: Span,
+        last: bool,
+    ) -> Result<bool, StepError> {
+        let (mut span, mut landing) = (span, None);
+        loop {
+            self.check_progress(state.time, span.step)?;
+            self.tried += 1;
+            match method.try_step(task, state, span, &self.pieces, landing)? {
+                Outcome::Accepted { ratio } => {
+                    if let Some(law) = landing {
+                        self.events += 1;
+                        let (piece, at) = (&mut self.pieces[law], method.instant(state));
+                        *piece = task.forcing.next_piece(law, *piece, at);
+                        method.begin(task, state, &self.pieces);
+                        return Ok(true);
+                    }
+                    state.control.wanted_step = span.step * ratio;
+                    return Ok(ratio < 1.0 || (ratio > 1.4 && !last));
+                }
+                Outcome::Rejected { ratio } => {
+                    state.control.wanted_step = span.step * ratio;
+                    return Ok(true);
+                }
+                Outcome::Interrupted { law, time } => {
+                    let step = (time - span.start).max(LEAST_ADVANCE * span.step);
+                    let end = span.start + step;
+                    if end <= span.start || end >= span.end {
+                        // So near to the end that the step may as well land there.
+                        (span.end, landing) = (span.end, Some(law));
+                    } else {
+                        (span, landing) = (Span { end, step, ..span }, Some(law));
+                    }
+                }
+            }
+        }
+    }
+
+    /// A call has to end: refuses to go on without end with steps that lead nowhere.
+    fn check_progress(&self, time: f64, step: f64) -> Result<(), StepError> {
+        let average = (time - self.since) / self.tried as f64;
+        if self.tried >= PATIENCE && average < SMALLEST_USEFUL_STEP {
+            return Err(StepError::StepTooSmall { time, step });
+        }
+        if self.tried >= MOST_STEPS {
+            return Err(StepError::TooManySteps {
+                time,
+                steps: self.tried,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The number of equal steps for a stretch of `lengths` wanted steps: 1, 2, 3, 4, 6, 8, 12, 16, 24 ...,
+/// so that few different step lengths occur.
+fn equal_steps(lengths: f64) -> u64 {
+    let needed = (lengths * (1.0 - 1e-9)).ceil().max(1.0);
+    if needed <= 3.0 {
+        return needed as u64;
+    }
+    let mut power: u64 = 2;
+    while (power as f64) < needed && power < 1 << 60 {
+        power *= 2;
+    }
+    let between = power / 4 * 3;
+    if between as f64 >= needed {
+        between
+    } else {
+        power
+    }
+}
+
+/// The step length with its last 22 bits rounded away (relative 1e-9): communication points computed by
+/// additions then lead to the same coefficients, whatever was computed before.
+pub(super) fn canonical(step: f64) -> f64 {
+    const DROPPED: u32 = 22;
+    let bits = step.to_bits() + (1 << (DROPPED - 1));
+    f64::from_bits(bits >> DROPPED << DROPPED)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn step_counts_are_the_next_of_a_small_set() {
+        let counts = [0.3, 1.0, 1.0 + 1e-12, 2.5, 3.5, 4.5, 6.1, 9.0, 13.0, 17.0].map(equal_steps);
+        assert_eq!(counts, [1, 1, 1, 3, 4, 6, 8, 12, 16, 24]);
+    }
+
+    #[test]
+    fn canonical_steps_absorb_rounding_of_communication_points() {
+        let exact = canonical(2e-5);
+        // At 10 s a difference of times carries errors of 1e-15 s.
+        assert_eq!(canonical((10.0 + 2e-5) - 10.0), exact);
+        assert!((exact / 2e-5 - 1.0).abs() < 1e-9);
+    }
+}

@@ -36,17 +36,21 @@ fn main() {
         .replace("torsional_modes = 3", "torsional_modes = 8");
     println!("three_stage, case 4, {simulated} s, communication step {STEP} s\n");
     println!(
-        "modes  tolerance  ms per simulated s  steps per simulated s  ns per step  factorizations      error"
+        "     solver  modes  tolerance  ms per simulated s  steps per simulated s  ns per step  factorizations      error"
     );
     for (modes, text) in [("3/3", case_four()), ("10/8", more_modes)] {
-        let (converged, ..) = run(&text, 1e-7);
+        let (converged, ..) = run(&text, 1e-9);
         let mean = converged.iter().sum::<f64>() / converged.len() as f64;
         let alternating: Vec<f64> = converged.iter().map(|force| force - mean).collect();
-        for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
-            let (forces, counts, seconds) = run(&text, tolerance);
+        let newmark = text.replace("[simulation]", "[simulation]\nsolver = \"newmark\"");
+        let runs =
+            [1e-2, 1e-3, 1e-4, 1e-5, 1e-6].map(|tolerance| (&text, "exponential", tolerance));
+        let slow = [1e-3, 1e-5].map(|tolerance| (&newmark, "newmark", tolerance));
+        for (text, solver, tolerance) in runs.into_iter().chain(slow) {
+            let (forces, counts, seconds) = run(text, tolerance);
             let error = support::rms_difference(&forces, &converged) / support::rms(&alternating);
             println!(
-                "{modes:>5}  {tolerance:>9.0e}  {:>18.1}  {:>21.3e}  {:>11.0}  {:>14}  {error:>9.1e}",
+                "{solver:>11}  {modes:>5}  {tolerance:>9.0e}  {:>18.1}  {:>21.3e}  {:>11.0}  {:>14}  {error:>9.1e}",
                 1e3 * seconds / simulated,
                 counts.steps as f64 / simulated,
                 1e9 * seconds / counts.steps as f64,

@@ -4,9 +4,9 @@
 //! outside sees, evaluated with the inputs as they are now. A [`Snapshot`] is everything that influences a
 //! later step. Knows no FMI.
 
-use crate::config::Start;
+use crate::config::{self, SolverChoice, Start};
 use crate::model::{Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium};
-use crate::solver::{Counts, Newmark, State, StepError};
+use crate::solver::{Counts, Integrator, State, StepError};
 
 /// A running simulation.
 #[derive(Debug, Clone)]
@@ -16,7 +16,7 @@ pub struct Simulation {
     inputs: Inputs,
     /// Generalized load of the inputs during a step.
     held: Vec<f64>,
-    solver: Newmark,
+    solver: Integrator,
     tolerance: f64,
 }
 
@@ -28,21 +28,23 @@ pub struct Snapshot {
 }
 
 impl Simulation {
-    /// Starts at `time` from the static solution under the inputs, or from rest. `tolerance`: see
-    /// [`crate::config::Simulation::tolerance`].
+    /// Starts at `time` as `settings` say: from the static solution under the inputs, or from rest; in free spin
+    /// the rotors turn with their first speeds.
     pub fn start(
         model: ModalModel,
         inputs: Inputs,
-        start: Start,
+        settings: &config::Simulation,
         time: f64,
-        tolerance: f64,
     ) -> Result<Simulation, NoEquilibrium> {
-        let position = match start {
+        let position = match settings.start {
             Start::Rest => vec![0.0; model.system.size],
             Start::Equilibrium => equilibrium(&model, &inputs)?.position,
         };
-        let state = model.system.state_at(time, position);
-        let solver = Newmark::new(&model.system);
+        let solver = match settings.solver {
+            SolverChoice::Exponential => Integrator::exponential(&model.system, model.harmonics()),
+            SolverChoice::Newmark => Integrator::newmark(&model.system),
+        };
+        let state = solver.state_at(&model.system, time, position, model.rigid_velocity());
         let held = vec![0.0; model.system.size];
         Ok(Simulation {
             model,
@@ -50,14 +52,14 @@ impl Simulation {
             inputs,
             held,
             solver,
-            tolerance,
+            tolerance: settings.tolerance,
         })
     }
 
     /// Integrates to exactly `time` with the inputs held. After an error the simulation is as before.
     pub fn advance_to(&mut self, time: f64) -> Result<(), StepError> {
         self.inputs.load_into(&self.model, &mut self.held);
-        let excitation = Excitation::new(&self.model, &self.held);
+        let excitation = Excitation::new(&self.model, &self.inputs, &self.held);
         let system = &self.model.system;
         self.solver
             .advance_to(system, &excitation, &mut self.state, time, self.tolerance)

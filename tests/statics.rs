@@ -6,8 +6,7 @@ mod support;
 
 use geartrain::config::Start;
 use geartrain::model::{BaseMotion, Inputs, ModalModel, equilibrium};
-use geartrain::simulation::Simulation;
-use support::{assembled, compound, file_inputs, gear_pair, star, three_stage, valid};
+use support::{assembled, compound, file_inputs, gear_pair, set_going, star, three_stage, valid};
 
 #[test]
 fn static_mesh_force_is_torque_over_base_radius() {
@@ -168,7 +167,7 @@ fn a_uniform_shift_of_all_supports_gives_no_force() {
         torques: vec![0.0; 2],
         bases: vec![shift; model.bearings().count()],
     };
-    let simulation = Simulation::start(model, inputs, Start::Equilibrium, 0.0, 1e-4).unwrap();
+    let simulation = set_going(model, inputs, Start::Equilibrium, 1e-4);
     let motion = simulation.motion();
     // 1e-9 of the force of one bearing held against the shift.
     let scale = 9e7 * 3e-4;
@@ -177,9 +176,11 @@ fn a_uniform_shift_of_all_supports_gives_no_force() {
         "{} N",
         motion.mesh_force(0)
     );
-    let bearings = motion.model.rotors.iter().flat_map(|rotor| &rotor.bearings);
-    for (input, bearing) in bearings.enumerate() {
-        let force = motion.bearing_force(bearing, input);
+    let rotors = motion.model.rotors.iter().enumerate();
+    let bearings =
+        rotors.flat_map(|(index, rotor)| rotor.bearings.iter().map(move |one| (index, one)));
+    for (input, (rotor, bearing)) in bearings.enumerate() {
+        let force = motion.bearing_force(rotor, bearing, input);
         assert!(
             force.iter().all(|component| component.abs() < 1e-9 * scale),
             "{force:?} N"
@@ -190,14 +191,12 @@ fn a_uniform_shift_of_all_supports_gives_no_force() {
 #[test]
 fn all_forces_on_a_rotor_at_rest_balance() {
     let text = three_stage();
-    let simulation = Simulation::start(
+    let simulation = set_going(
         assembled(&text),
         file_inputs(&text),
         Start::Equilibrium,
-        0.0,
         1e-4,
-    )
-    .unwrap();
+    );
     let motion = simulation.motion();
     // With the full set of modes the sum over the bearings is the mesh force; with three modes only the
     // torque balance is exact: load torque + mesh torque = 0 on stages 2 and 3 at the mean stiffness.

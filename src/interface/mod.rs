@@ -212,7 +212,7 @@ impl Quantity {
             Quantity::MeshDeflection { mesh } => motion.mesh_deflection(mesh),
             Quantity::MeshStiffness { mesh } => motion.mesh_stiffness(mesh),
             Quantity::GearMotion { gear, direction } => {
-                direction.of(&rotors[gear.rotor].gears[gear.gear], motion)
+                direction.of(gear.rotor, &rotors[gear.rotor].gears[gear.gear], motion)
             }
             Quantity::GearTorque { gear } => motion.mesh_torque(gear),
             Quantity::BearingForce {
@@ -220,18 +220,18 @@ impl Quantity {
                 bearing,
                 input,
                 axis,
-            } => motion.bearing_force(&rotors[rotor].bearings[bearing], input)[axis],
+            } => motion.bearing_force(rotor, &rotors[rotor].bearings[bearing], input)[axis],
             Quantity::BearingMotion {
                 rotor,
                 bearing,
                 direction,
-            } => direction.of(&rotors[rotor].bearings[bearing].station, motion),
+            } => direction.of(rotor, &rotors[rotor].bearings[bearing].station, motion),
             Quantity::ProbeMotion {
                 rotor,
                 probe,
                 direction,
-            } => direction.of(&rotors[rotor].probes[probe], motion),
-            Quantity::Speed { rotor } => rotors[rotor].speed,
+            } => direction.of(rotor, &rotors[rotor].probes[probe], motion),
+            Quantity::Speed { rotor } => motion.speed(rotor),
             Quantity::Angle { rotor } => motion.angle(rotor),
             Quantity::Modal { coordinate } => motion.state.position[coordinate],
         }
@@ -239,11 +239,11 @@ impl Quantity {
 }
 
 impl Direction {
-    fn of(self, station: &crate::model::Station, motion: &Motion<'_>) -> f64 {
-        motion.displacement(match self {
-            Direction::X => &station.x,
-            Direction::Y => &station.y,
-            Direction::Theta => &station.theta,
-        })
+    fn of(self, rotor: usize, station: &crate::model::Station, motion: &Motion<'_>) -> f64 {
+        match self {
+            Direction::X => motion.displacement(&station.x),
+            Direction::Y => motion.displacement(&station.y),
+            Direction::Theta => motion.torsion(rotor, &station.theta),
+        }
     }
 }

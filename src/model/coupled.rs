@@ -54,19 +54,22 @@ pub struct StateMatrix {
 const LEAST_SCALE: f64 = 1.0;
 
 impl ModalModel {
-    /// All couplings as linear springs.
+    /// The meshes as linear springs, pressed on their reference flanks: one each, or two where torques follow the
+    /// printed equation. Radial forces of bearings are not among them.
     pub fn mean_springs(&self) -> impl Iterator<Item = MeanSpring<'_>> {
-        let spring = |(coupling, &mesh)| MeanSpring {
-            coupling,
-            mesh,
-            stiffness: self.meshes[mesh].mean_stiffness(),
-            damping: self.meshes[mesh].damping,
-        };
-        self.system
-            .couplings
-            .iter()
-            .zip(&self.coupling_mesh)
-            .map(spring)
+        self.meshes.iter().enumerate().flat_map(|(index, mesh)| {
+            let mut couplings = mesh.couplings();
+            if mesh.backlash.is_some() {
+                couplings.end = mesh.first_coupling + 1;
+            }
+            let spring = move |coupling| MeanSpring {
+                coupling,
+                mesh: index,
+                stiffness: mesh.mean_stiffness(),
+                damping: mesh.damping,
+            };
+            self.system.couplings[couplings].iter().map(spring)
+        })
     }
 
     /// K and D with the meshes at their mean stiffness, n x n.

@@ -15,14 +15,18 @@
 //!   (R' b) F + Z mu                     = R' f               one row per rigid rotation
 //!   Z' r                                = 0
 //! ```
+//!
+//! Unilateral flanks that the solution does not press together are left out, and the secant stiffness of radial
+//! bearings follows it, until both agree with the position they lead to.
 
 use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Inputs, ModalModel};
+use super::radial::secant;
+use super::{Inputs, Mesh, ModalModel};
 use crate::linalg::{multiply_add, solve_in_place};
-use crate::solver::Row;
+use crate::solver::{Coupling, Row};
 
 /// The static solution.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,38 +49,68 @@ pub struct NoEquilibrium {
 const LOOSE: f64 = 1e-14;
 /// Squared circular frequency [rad^2/s^2] below which a torsional motion is rigid: 0.05 Hz.
 const RIGID: f64 = 0.1;
+/// Depth of contact of a radial bearing in the first guess [m].
+const FIRST_DEPTH: f64 = 1e-6;
+/// Iterations after which contact counts as not to be found, and what counts as found.
+const MOST_ITERATIONS: usize = 500;
+const SETTLED: f64 = 1e-13;
 
 /// Solves for the static displacement under the inputs' torques and gearbox displacements.
 pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, NoEquilibrium> {
-    let mut load = vec![0.0; model.system.size];
-    let mut still = inputs.clone();
-    for base in &mut still.bases {
-        base.velocity = [0.0; 2];
-    }
-    still.load_into(model, &mut load);
-
     let compliance = Compliance::of(model)?;
+    let load = inputs.static_load(model);
+    let mut springs = Springs::first_guess(model, inputs);
+    for _ in 0..MOST_ITERATIONS {
+        let equilibrium = solve(&compliance, &load, &springs.active())?;
+        if springs.follow(model, &equilibrium.0) {
+            return Ok(Equilibrium {
+                mesh_forces: springs.mesh_forces(model, &equilibrium.0),
+                position: equilibrium.0,
+            });
+        }
+    }
+    Err(NoEquilibrium { rotor: None })
+}
+
+/// Position of the rotors held by linear springs.
+struct Position(Vec<f64>);
+
+/// A spring along a coupling: F = k (w q - gap).
+#[derive(Debug, Clone, Copy)]
+struct StaticSpring {
+    coupling: usize,
+    stiffness: f64,
+    gap: f64,
+}
+
+fn solve(
+    compliance: &Compliance<'_>,
+    load: &[f64],
+    springs: &[StaticSpring],
+) -> Result<Position, NoEquilibrium> {
+    let model = compliance.model;
+    let coupling = |spring: &StaticSpring| &model.system.couplings[spring.coupling];
+    let mut load = load.to_vec();
     let rigid = &compliance.rigid;
-    let couplings = &model.system.couplings;
-    let (m, r) = (couplings.len(), rigid.len());
-    let row_on_rigid = DMatrix::from_fn(m, r, |i, j| couplings[i].row.dot_row(&rigid[j]));
+    let (m, r) = (springs.len(), rigid.len());
+    let row_on_rigid = DMatrix::from_fn(m, r, |i, j| coupling(&springs[i]).row.dot_row(&rigid[j]));
     let free = null_space(&row_on_rigid);
     let size = m + r + free.ncols();
 
     let mut matrix = DMatrix::zeros(size, size);
     let mut rhs = vec![0.0; size];
     let elastic = compliance.apply(&load);
-    let mean = |i: usize| model.meshes[model.coupling_mesh[i]].mean_stiffness();
-    for (i, coupling) in couplings.iter().enumerate() {
-        rhs[i] = coupling.row.dot(&elastic);
-        matrix[(i, i)] += 1.0 / mean(i);
-        let response = compliance.apply(&coupling.column.to_dense(model.system.size));
-        for (l, other) in couplings.iter().enumerate() {
-            matrix[(l, i)] += other.row.dot(&response);
+    for (i, spring) in springs.iter().enumerate() {
+        let Coupling { row, column } = coupling(spring);
+        rhs[i] = row.dot(&elastic) - spring.gap;
+        matrix[(i, i)] += 1.0 / spring.stiffness;
+        let response = compliance.apply(&column.to_dense(model.system.size));
+        for (l, other) in springs.iter().enumerate() {
+            matrix[(l, i)] += coupling(other).row.dot(&response);
         }
         for (j, rotation) in rigid.iter().enumerate() {
             matrix[(i, m + j)] = -row_on_rigid[(i, j)];
-            matrix[(m + j, i)] = coupling.column.dot_row(rotation);
+            matrix[(m + j, i)] = column.dot_row(rotation);
         }
     }
     for (j, rotation) in rigid.iter().enumerate() {
@@ -89,23 +123,134 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
     if !solve_in_place(&mut matrix, &mut rhs) {
         return Err(NoEquilibrium { rotor: None });
     }
-
-    for (coupling, &force) in couplings.iter().zip(&rhs) {
-        coupling.column.add_to(-force, &mut load);
+    for (spring, &force) in springs.iter().zip(&rhs) {
+        coupling(spring).column.add_to(-force, &mut load);
     }
     let mut position = compliance.apply(&load);
     for (j, rotation) in rigid.iter().enumerate() {
         rotation.add_to(rhs[m + j], &mut position);
     }
-    // The first coupling of a mesh carries its (lateral) force.
-    let first = |mesh: usize| model.coupling_mesh.iter().position(|&other| other == mesh);
-    let mesh_forces = (0..model.meshes.len())
-        .filter_map(|mesh| first(mesh).map(|index| rhs[index]))
-        .collect();
-    Ok(Equilibrium {
-        position,
-        mesh_forces,
-    })
+    Ok(Position(position))
+}
+
+/// The springs that stand for meshes and radial bearings, and which of them act.
+struct Springs {
+    springs: Vec<StaticSpring>,
+    active: Vec<bool>,
+    /// For every radial bearing of the model: the number of its first spring, and the gearbox's displacement.
+    bearings: Vec<(usize, [f64; 2])>,
+}
+
+impl Springs {
+    /// Reference flanks closed, back flanks open, bearings in light contact.
+    fn first_guess(model: &ModalModel, inputs: &Inputs) -> Springs {
+        let (mut springs, mut active) = (Vec::new(), Vec::new());
+        for mesh in &model.meshes {
+            for coupling in mesh.couplings() {
+                let back = mesh.backlash.is_some() && coupling > mesh.first_coupling;
+                active.push(!back);
+                springs.push(StaticSpring {
+                    coupling,
+                    stiffness: mesh.mean_stiffness(),
+                    gap: mesh.backlash.filter(|_| back).unwrap_or(0.0),
+                });
+            }
+        }
+        let mut bearings = Vec::new();
+        for bearing in &model.radial {
+            let base = inputs.bases[bearing.input].displacement;
+            bearings.push((springs.len(), base));
+            let stiffness = secant(&bearing.force, bearing.force.clearance + FIRST_DEPTH);
+            for (axis, gap) in base.into_iter().enumerate() {
+                active.push(stiffness > 0.0);
+                springs.push(StaticSpring {
+                    coupling: bearing.first_coupling + axis,
+                    stiffness,
+                    gap,
+                });
+            }
+        }
+        Springs {
+            springs,
+            active,
+            bearings,
+        }
+    }
+
+    fn active(&self) -> Vec<StaticSpring> {
+        let both = self.springs.iter().zip(&self.active);
+        both.filter(|(_, active)| **active)
+            .map(|(spring, _)| *spring)
+            .collect()
+    }
+
+    fn deflection(&self, model: &ModalModel, spring: usize, position: &[f64]) -> f64 {
+        let StaticSpring { coupling, gap, .. } = self.springs[spring];
+        model.system.couplings[coupling].row.dot(position) - gap
+    }
+
+    /// Follows the position just found. Gives whether nothing changed.
+    fn follow(&mut self, model: &ModalModel, position: &[f64]) -> bool {
+        let mut same = true;
+        for mesh in model.meshes.iter().filter(|mesh| mesh.backlash.is_some()) {
+            for coupling in mesh.couplings() {
+                // Springs of meshes stand in the order of their couplings.
+                let spring = self
+                    .springs
+                    .iter()
+                    .position(|spring| spring.coupling == coupling);
+                let spring = spring.unwrap_or(0);
+                let closed = self.deflection(model, spring, position) > 0.0;
+                same &= closed == self.active[spring];
+                self.active[spring] = closed;
+            }
+        }
+        for (bearing, &(first, _)) in model.radial.iter().zip(&self.bearings) {
+            let [x, y] = [first, first + 1].map(|spring| self.deflection(model, spring, position));
+            let (force, radius) = (&bearing.force, libm::hypot(x, y));
+            let old = self.springs[first].stiffness;
+            if old == 0.0 {
+                continue; // no coefficient, no force
+            }
+            // A power law is a straight line in logarithms: this step finds it at once, and in a clearance nearly.
+            let wanted = secant(force, radius);
+            let depth = (radius - force.clearance).max(1e-3 * FIRST_DEPTH);
+            let wanted = if wanted > 0.0 {
+                wanted
+            } else {
+                secant(force, force.clearance + depth)
+            };
+            let step = depth / (force.exponent * radius.max(depth));
+            let new = old * libm::pow(wanted / old, step.max(1e-3));
+            same &= (new - old).abs() <= SETTLED * old;
+            for spring in &mut self.springs[first..first + 2] {
+                spring.stiffness = new;
+            }
+        }
+        same
+    }
+
+    /// Normal force of every mesh: of its reference flank less that of its back flank.
+    fn mesh_forces(&self, model: &ModalModel, position: &[f64]) -> Vec<f64> {
+        let force = |coupling: usize| {
+            let mine = |&spring: &usize| self.springs[spring].coupling == coupling;
+            let spring = (0..self.springs.len())
+                .find(mine)
+                .filter(|&spring| self.active[spring]);
+            spring.map_or(0.0, |spring| {
+                self.springs[spring].stiffness * self.deflection(model, spring, position)
+            })
+        };
+        let of_mesh = |mesh: &Mesh| {
+            let back = if mesh.backlash.is_some() {
+                force(mesh.first_coupling + 1)
+            } else {
+                0.0
+            };
+            force(mesh.first_coupling) - back
+        };
+        model.meshes.iter().map(of_mesh).collect()
+    }
 }
 
 /// K^-1 block by block, without the rigid rotations.

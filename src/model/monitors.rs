@@ -1,32 +1,39 @@
 //! What the solver's error control watches.
 
+use super::radial::{RadialBearing, secant};
 use super::{Mesh, Rotor};
 use crate::solver::{Monitor, Row, System};
 
+/// A mesh force counts as zero where the teeth are pressed by less than this [m].
+const SMALLEST_DEFLECTION: f64 = 1e-12;
+/// Depth of contact [m] at which a bearing's force is judged as a spring.
+const TYPICAL_DEPTH: f64 = 1e-5;
+
 /// The tolerance holds for the mesh forces; on rotors without a mesh for the motion at bearings and of
 /// everything that turns.
-pub(super) fn monitors(system: &System, rotors: &[Rotor], meshes: &[Mesh]) -> Vec<Monitor> {
-    let monitor = |mesh: &Mesh| {
-        let (k, c) = (mesh.mean_stiffness(), mesh.damping);
-        let own = k * mesh.row.dot_row(&mesh.row); // squared frequency of the mesh by itself
-        let damping_ratio = lightest_damping(system, &mesh.row, k, c, 0.25 * own);
-        Monitor {
-            row: mesh.row.clone(),
-            damping_ratio,
-            rate_weight: c / k,
-        }
-    };
-    let mut monitors: Vec<Monitor> = meshes.iter().map(monitor).collect();
+pub(super) fn monitors(
+    system: &System,
+    rotors: &[Rotor],
+    meshes: &[Mesh],
+    radial: &[RadialBearing],
+) -> Vec<Monitor> {
+    let mut monitors: Vec<Monitor> = meshes.iter().map(|mesh| of_mesh(system, mesh)).collect();
     let meshed = |index: usize| {
         meshes
             .iter()
             .any(|mesh| mesh.gears.iter().any(|gear| gear.rotor == index))
     };
-    for (_, rotor) in rotors
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| !meshed(*index))
-    {
+    let mut input = 0;
+    for (index, rotor) in rotors.iter().enumerate() {
+        let inputs = input..input + rotor.bearings.len();
+        input = inputs.end;
+        if meshed(index) {
+            continue;
+        }
+        let own = radial
+            .iter()
+            .filter(|bearing| inputs.contains(&bearing.input));
+        monitors.extend(own.map(|bearing| of_bearing(system, bearing)));
         let bearings = rotor
             .bearings
             .iter()
@@ -41,13 +48,44 @@ pub(super) fn monitors(system: &System, rotors: &[Rotor], meshes: &[Mesh]) -> Ve
                 .chain(stations)
                 .chain(&rotor.torques)
                 .map(|row| Monitor {
+                    couplings: 0..0,
                     row: row.clone(),
                     damping_ratio: lightest_damping(system, row, 0.0, 0.0, 0.0),
+                    frequency: 0.0,
                     rate_weight: 0.0,
+                    floor: 0.0,
                 }),
         );
     }
     monitors
+}
+
+fn of_mesh(system: &System, mesh: &Mesh) -> Monitor {
+    let (k, c) = (mesh.mean_stiffness(), mesh.damping);
+    let own = k * mesh.row.dot_row(&mesh.row); // squared frequency of the mesh by itself
+    let flanks = if mesh.backlash.is_some() { 2 } else { 1 };
+    Monitor {
+        couplings: mesh.first_coupling..mesh.first_coupling + flanks,
+        row: mesh.row.clone(),
+        damping_ratio: lightest_damping(system, &mesh.row, k, c, 0.25 * own),
+        frequency: own.sqrt(),
+        rate_weight: c / k,
+        floor: k * SMALLEST_DEFLECTION,
+    }
+}
+
+fn of_bearing(system: &System, bearing: &RadialBearing) -> Monitor {
+    let row = &system.couplings[bearing.first_coupling].row;
+    let k = secant(&bearing.force, bearing.force.clearance + TYPICAL_DEPTH);
+    let own = k * row.dot_row(row);
+    Monitor {
+        couplings: bearing.first_coupling..bearing.first_coupling + 2,
+        row: row.clone(),
+        damping_ratio: lightest_damping(system, row, k, 0.0, 0.25 * own),
+        frequency: own.sqrt(),
+        rate_weight: 0.0,
+        floor: k * SMALLEST_DEFLECTION,
+    }
 }
 
 /// Damping ratio of the most lightly damped motion that a row takes part in above a squared frequency

@@ -1,14 +1,16 @@
 //! What the outside sees of a state: displacements, mesh forces, bearing forces.
 //!
 //! ```text
-//!   mesh      delta = w q,  F = k(t) delta + c delta'           on b: +F n, torque -s F R_b
-//!   bearing   force of the rotor on the gearbox = K (u - u_b) + C (u' - u_b')
+//!   mesh      delta = w q - e,  F = k(t) delta + c delta'       on b: +F n, torque -s F R_b
+//!   bearing   force of the rotor on the gearbox = K (u - u_b) + C (u' - u_b') + F_r (u - u_b) / r
 //! ```
 //!
 //! Every quantity is computed when it is asked for, from the state, the inputs and the time.
 
-use super::excitation::product;
-use super::{BaseMotion, Bearing, Inputs, Mesh, ModalModel};
+use super::inputs::product;
+use super::radial::secant;
+use super::tooth_contact::Phase;
+use super::{Bearing, Inputs, Mesh, ModalModel};
 use crate::config::TorqueCoupling;
 use crate::mesh::GearLoad;
 use crate::solver::{Row, State};
@@ -37,44 +39,96 @@ impl Motion<'_> {
 
     /// Rotation angle of a rotor [rad].
     pub fn angle(&self, rotor: usize) -> f64 {
-        let rotor = &self.model.rotors[rotor];
-        rotor.angle + rotor.speed * self.state.time
+        let data = &self.model.rotors[rotor];
+        let turned = if self.model.is_free() {
+            self.displacement(&data.mean_rotation)
+        } else {
+            data.speed * self.state.time
+        };
+        data.angle + turned
+    }
+
+    /// Mean speed of a rotor [rad/s].
+    pub fn speed(&self, rotor: usize) -> f64 {
+        let data = &self.model.rotors[rotor];
+        if self.model.is_free() {
+            self.velocity(&data.mean_rotation)
+        } else {
+            data.speed
+        }
+    }
+
+    /// Torsional vibration of a station of a rotor on top of the mean rotation [rad].
+    pub fn torsion(&self, rotor: usize, theta: &Row) -> f64 {
+        let mean = if self.model.is_free() {
+            self.displacement(&self.model.rotors[rotor].mean_rotation)
+        } else {
+            0.0
+        };
+        self.displacement(theta) - mean
+    }
+
+    fn phase(&self, mesh: &Mesh) -> Phase {
+        if self.model.is_free() {
+            let gear = mesh.gears[0];
+            let theta = &self.model.rotors[gear.rotor].gears[gear.gear].theta;
+            mesh.phase_of(self.displacement(theta), self.velocity(theta))
+        } else {
+            mesh.phase_at(self.state.time)
+        }
     }
 
     /// k(t) [N/m].
     pub fn mesh_stiffness(&self, mesh: usize) -> f64 {
-        self.model.meshes[mesh].stiffness(self.state.time)
+        let mesh = &self.model.meshes[mesh];
+        mesh.stiffness(self.phase(mesh))
     }
 
-    /// delta [m].
+    /// delta, transmission error included [m].
     pub fn mesh_deflection(&self, mesh: usize) -> f64 {
-        self.displacement(&self.model.meshes[mesh].row)
+        let mesh = &self.model.meshes[mesh];
+        let seen = [self.displacement(&mesh.row), self.velocity(&mesh.row)];
+        mesh.compression(0, self.phase(mesh), seen).depth
     }
 
-    /// F, compression positive [N].
+    /// F, compression positive, negative where the back flank carries it [N].
     pub fn mesh_force(&self, mesh: usize) -> f64 {
-        self.force_along(mesh, &self.model.meshes[mesh].row)
+        let [front, back] = self.flank_forces(&self.model.meshes[mesh]);
+        front - back
     }
 
-    fn force_along(&self, mesh: usize, row: &Row) -> f64 {
-        self.mesh_stiffness(mesh) * self.displacement(row)
-            + self.model.meshes[mesh].damping * self.velocity(row)
+    /// Normal force of the reference flank and of the back flank [N].
+    fn flank_forces(&self, mesh: &Mesh) -> [f64; 2] {
+        let phase = self.phase(mesh);
+        let k = mesh.stiffness(phase);
+        [0, 1].map(|flank| {
+            if flank == 1 && mesh.backlash.is_none() {
+                return 0.0;
+            }
+            let row = &self.model.system.couplings[mesh.first_coupling + flank].row;
+            let seen = [self.displacement(row), self.velocity(row)];
+            mesh.flank_force(k, mesh.compression(flank, phase, seen))
+        })
     }
 
     /// What a mesh does to gear a and gear b.
     pub fn mesh_loads(&self, mesh: usize) -> [GearLoad; 2] {
-        let Mesh {
-            line,
-            torque_coupling,
-            rotation_row,
-            ..
-        } = &self.model.meshes[mesh];
-        let mut loads = line.loads(self.mesh_force(mesh));
-        if *torque_coupling == TorqueCoupling::AsPrinted {
-            let printed = line.loads(self.force_along(mesh, rotation_row));
-            for (load, printed) in loads.iter_mut().zip(printed) {
+        let mesh = &self.model.meshes[mesh];
+        let [front, back] = self.flank_forces(mesh);
+        let mut loads = mesh.line.loads(front);
+        if mesh.torque_coupling == TorqueCoupling::AsPrinted {
+            let row = &mesh.rotation_row;
+            let k = mesh.stiffness(self.phase(mesh));
+            let force = k * self.displacement(row) + mesh.damping * self.velocity(row);
+            for (load, printed) in loads.iter_mut().zip(mesh.line.loads(force)) {
                 load.torque = printed.torque;
             }
+        }
+        let behind = mesh.line.opposite_flank().loads(back);
+        for (load, behind) in loads.iter_mut().zip(behind) {
+            load.x += behind.x;
+            load.y += behind.y;
+            load.torque += behind.torque;
         }
         loads
     }
@@ -94,28 +148,25 @@ impl Motion<'_> {
 
     /// Force of the rotor on the gearbox through a bearing [N]; `input` is the bearing's place among the
     /// inputs.
-    pub fn bearing_force(&self, bearing: &Bearing, input: usize) -> [f64; 2] {
+    pub fn bearing_force(&self, rotor: usize, bearing: &Bearing, input: usize) -> [f64; 2] {
         let station = &bearing.station;
-        let base = self.base_motion(input);
+        let vibration = self.model.vibration.motion(self.state.time);
+        let base = self.inputs.bases[input].plus(&vibration);
         let relative = |shaft: [f64; 2], base: [f64; 2]| [shaft[0] - base[0], shaft[1] - base[1]];
         let displacement = [self.displacement(&station.x), self.displacement(&station.y)];
         let velocity = [self.velocity(&station.x), self.velocity(&station.y)];
-        let spring = product(
-            &bearing.stiffness,
-            relative(displacement, base.displacement),
-        );
-        let damper = product(&bearing.damping, relative(velocity, base.velocity));
-        [spring[0] + damper[0], spring[1] + damper[1]]
-    }
-
-    /// Motion of the gearbox at a bearing: the input plus the gearbox vibration.
-    fn base_motion(&self, input: usize) -> BaseMotion {
-        let mut base = self.model.vibration.motion(self.state.time);
-        let set = &self.inputs.bases[input];
-        for axis in 0..2 {
-            base.displacement[axis] += set.displacement[axis];
-            base.velocity[axis] += set.velocity[axis];
+        let (stiffness, damping) = bearing.at_speed(self.speed(rotor));
+        let displacement = relative(displacement, base.displacement);
+        let spring = product(&stiffness, displacement);
+        let damper = product(&damping, relative(velocity, base.velocity));
+        let mut force = [spring[0] + damper[0], spring[1] + damper[1]];
+        let mut radial = self.model.radial.iter();
+        if let Some(radial) = radial.find(|radial| radial.input == input) {
+            let [x, y] = displacement;
+            let secant = secant(&radial.force, libm::hypot(x, y));
+            force[0] += secant * x;
+            force[1] += secant * y;
         }
-        base
+        force
     }
 }

@@ -13,7 +13,7 @@ mod calls;
 mod design;
 mod error;
 
-use crate::config::{Config, Start};
+use crate::config::Config;
 use crate::interface::{Causality, Parameter, Quantity};
 use crate::model::Inputs;
 use crate::simulation::Simulation;
@@ -319,13 +319,11 @@ impl Slave {
             config.simulation.tolerance = tolerance.clamp(1e-12, 0.1);
         }
         let model = self.design.assemble(&config)?;
-        let start: Start = config.simulation.start;
         Simulation::start(
             model,
             self.inputs.clone(),
-            start,
+            &config.simulation,
             experiment.start,
-            config.simulation.tolerance,
         )
         .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
     }

@@ -5,6 +5,7 @@
 
 pub mod parts;
 
+use geartrain::config::{self, Start};
 use geartrain::model::{Inputs, ModalModel};
 use geartrain::simulation::Simulation;
 use geartrain::train::{Loaded, load};
@@ -93,9 +94,20 @@ pub fn file_inputs(text: &str) -> Inputs {
 
 /// A simulation as the file describes it, with another tolerance.
 pub fn started(text: &str, tolerance: f64) -> Simulation {
-    let start = valid(text).config.simulation.start;
-    Simulation::start(assembled(text), file_inputs(text), start, 0.0, tolerance)
+    let mut settings = valid(text).config.simulation;
+    settings.tolerance = tolerance;
+    Simulation::start(assembled(text), file_inputs(text), &settings, 0.0)
         .expect("the model has an equilibrium")
+}
+
+/// A model that moves from these inputs, by the default solver.
+pub fn set_going(model: ModalModel, inputs: Inputs, start: Start, tolerance: f64) -> Simulation {
+    let settings = config::Simulation {
+        start,
+        tolerance,
+        ..valid(&three_stage()).config.simulation
+    };
+    Simulation::start(model, inputs, &settings, 0.0).expect("the model has an equilibrium")
 }
 
 /// Root mean square of a series.

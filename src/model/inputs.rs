@@ -1,0 +1,159 @@
+//! What a master sets while the simulation runs, and the vibration of all supports beside it.
+//!
+//! ```text
+//!   f = sum over torques of T w_th + sum over bearings of w' (K u_b + C u_b')
+//!   gearbox vibration  x_b = a_x sin(w t),  y_b = a_y sin(w t + psi)    at every bearing
+//! ```
+
+use core::f64::consts::TAU;
+
+use super::{Bearing, ModalModel, Rotor};
+use crate::config::{GearboxVibration, Planar};
+use crate::solver::Harmonic;
+
+/// Everything a master sets while the simulation runs, held between communication points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inputs {
+    /// External torques [N m], in the order of [`ModalModel::torques`].
+    pub torques: Vec<f64>,
+    /// Gearbox motion, in the order of [`ModalModel::bearings`].
+    pub bases: Vec<BaseMotion>,
+}
+
+/// Motion of the gearbox at one bearing.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BaseMotion {
+    /// Displacement in x and y [m].
+    pub displacement: [f64; 2],
+    /// Velocity in x and y [m/s].
+    pub velocity: [f64; 2],
+}
+
+/// The sinusoidal motion of all supports.
+#[derive(Debug, Clone)]
+pub(super) struct SupportVibration {
+    amplitude: [f64; 2],
+    phase: [f64; 2],
+    /// Circular frequency [rad/s].
+    frequency: f64,
+}
+
+impl Inputs {
+    /// No gearbox motion, and the given torques.
+    pub fn at_rest(torques: Vec<f64>, bearings: usize) -> Inputs {
+        Inputs {
+            torques,
+            bases: vec![BaseMotion::default(); bearings],
+        }
+    }
+
+    /// The generalized load of the inputs: overwrites `load`. Where bearings follow a free speed, the motion of the
+    /// gearbox acts through [`super::Excitation`] instead.
+    pub fn load_into(&self, model: &ModalModel, load: &mut [f64]) {
+        load.fill(0.0);
+        for (row, &torque) in model.torques().zip(&self.torques) {
+            row.add_to(torque, load);
+        }
+        for (bearing, base) in model.bearings().zip(&self.bases) {
+            if !bearing.follows_speed {
+                bearing.base_load(base, load);
+            }
+        }
+    }
+
+    /// The generalized load of torques and gearbox displacements.
+    pub(super) fn static_load(&self, model: &ModalModel) -> Vec<f64> {
+        let mut load = vec![0.0; model.system.size];
+        for (row, &torque) in model.torques().zip(&self.torques) {
+            row.add_to(torque, &mut load);
+        }
+        for (bearing, base) in model.bearings().zip(&self.bases) {
+            let still = BaseMotion {
+                velocity: [0.0; 2],
+                ..*base
+            };
+            bearing.base_load(&still, &mut load);
+        }
+        load
+    }
+}
+
+impl BaseMotion {
+    /// The sum of two motions.
+    pub(super) fn plus(&self, other: &BaseMotion) -> BaseMotion {
+        let sum = |one: [f64; 2], two: [f64; 2]| [one[0] + two[0], one[1] + two[1]];
+        BaseMotion {
+            displacement: sum(self.displacement, other.displacement),
+            velocity: sum(self.velocity, other.velocity),
+        }
+    }
+}
+
+impl Bearing {
+    /// load += w' (K u_b + C u_b').
+    fn base_load(&self, base: &BaseMotion, load: &mut [f64]) {
+        let spring = product(&self.stiffness, base.displacement);
+        let damper = product(&self.damping, base.velocity);
+        self.station.x.add_to(spring[0] + damper[0], load);
+        self.station.y.add_to(spring[1] + damper[1], load);
+    }
+}
+
+/// K u or C u'.
+pub(super) fn product(matrix: &Planar, motion: [f64; 2]) -> [f64; 2] {
+    matrix
+        .rows()
+        .map(|[per_x, per_y]| per_x * motion[0] + per_y * motion[1])
+}
+
+impl SupportVibration {
+    pub(super) fn new(vibration: &GearboxVibration) -> SupportVibration {
+        SupportVibration {
+            amplitude: [vibration.amplitude_x, vibration.amplitude_y],
+            phase: [0.0, vibration.phase_y],
+            frequency: TAU * vibration.frequency,
+        }
+    }
+
+    /// Motion of every support at `time`.
+    pub(super) fn motion(&self, time: f64) -> BaseMotion {
+        if self.amplitude == [0.0, 0.0] {
+            return BaseMotion::default();
+        }
+        let angle = self.frequency * time;
+        self.at_angles(self.phase.map(|phase| angle + phase))
+    }
+
+    fn at_angles(&self, angles: [f64; 2]) -> BaseMotion {
+        let mut motion = BaseMotion::default();
+        for (axis, angle) in angles.into_iter().enumerate() {
+            let (sine, cosine) = libm::sincos(angle);
+            motion.displacement[axis] = self.amplitude[axis] * sine;
+            motion.velocity[axis] = self.amplitude[axis] * self.frequency * cosine;
+        }
+        motion
+    }
+
+    /// The load of the vibration through all bearings: its values at angle 0 and at a quarter turn.
+    pub(super) fn harmonic(&self, rotors: &[Rotor], size: usize) -> Option<Harmonic> {
+        if self.amplitude == [0.0, 0.0] {
+            return None;
+        }
+        let load_at = |angle: f64| {
+            let mut load = vec![0.0; size];
+            let motion = self.at_angles(self.phase.map(|phase| angle + phase));
+            let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
+            for bearing in bearings.filter(|bearing| !bearing.follows_speed) {
+                bearing.base_load(&motion, &mut load);
+            }
+            load
+        };
+        Some(Harmonic {
+            frequency: self.frequency,
+            phase: 0.0,
+            cosine: load_at(0.0),
+            sine: load_at(TAU / 4.0),
+            offset: 0,
+        })
+    }
+}

@@ -1,0 +1,141 @@
+//! A rotor whose rotation is free: everything lateral that depends on its angle, speed and acceleration.
+//!
+//! ```text
+//!   phi = phi_0 + (1'J th)/(1'J 1),   Om = phi',   Om' = (torques + mesh torques - drag) / (1'J 1)
+//!   on [A, B]:   (Om - Om_0) G' [B', -A'] + Om' G' [B, -A],   G' = Phi'G Phi        Om_0: speed of the block in use
+//!              + (K(Om) - K(Om_0)) (u - u_b) + ... at bearings that depend on the speed
+//!              - m e (Om^2 cos + Om' sin, Om^2 sin - Om' cos)(phi + d)               unbalance
+//!              - Phi'K_s r (cos, sin)(phi + psi)                                     bow
+//! ```
+//!
+//! The angle enters through an observing coupling, the forces leave through one coupling per lateral coordinate.
+
+use nalgebra::DMatrix;
+
+use super::BaseMotion;
+use super::inputs::product;
+use crate::config::Planar;
+use crate::linalg::dot;
+use crate::rotor::BowLoad;
+use crate::solver::Instant;
+use crate::train::Bearing;
+
+/// The speed may leave that of the block in use by this part of it, and this much [rad/s].
+const STALE: (f64, f64) = (0.05, 2.0);
+
+/// What a free rotation adds to one rotor.
+#[derive(Debug, Clone)]
+pub(super) struct Spin {
+    /// Index of the rotor.
+    pub(super) rotor: usize,
+    /// The coupling that observes phi - phi_0 and Om.
+    pub(super) turn: usize,
+    /// The coupling whose rate is the drag of load slopes on the rigid coordinate.
+    pub(super) drag: usize,
+    /// The first of the couplings on the lateral coordinates.
+    pub(super) first: usize,
+    /// Number of lateral coordinates in one plane.
+    pub(super) n: usize,
+    /// Index of the rigid coordinate.
+    pub(super) rigid: usize,
+    /// Om' per acceleration of the rigid coordinate: 1 / sqrt(1'J 1).
+    pub(super) rotation: f64,
+    /// How the forces of other couplings act on the rigid coordinate.
+    pub(super) torques: Vec<(usize, f64)>,
+    /// phi_0 [rad].
+    pub(super) angle: f64,
+    /// Phi'G Phi.
+    pub(super) gyroscopic: DMatrix<f64>,
+    /// Shape at the unbalance, moment [kg m], phase [rad].
+    pub(super) unbalances: Vec<(Vec<f64>, f64, f64)>,
+    /// Residual bow.
+    pub(super) bows: Vec<BowLoad>,
+    /// Bearings that depend on the speed: shape at the bearing, its place among the inputs, its coefficients.
+    pub(super) bearings: Vec<(Vec<f64>, usize, Bearing)>,
+}
+
+impl Spin {
+    /// Whether the block should follow the speed.
+    pub(super) fn is_stale(used: f64, now: f64) -> bool {
+        (now - used).abs() > STALE.1.max(STALE.0 * used.abs())
+    }
+
+    /// Overwrites the forces of the rotor's couplings; those of meshes must be known. `held` is the load of the
+    /// inputs, `base` gives the motion of the gearbox at a bearing.
+    pub(super) fn forces_into(
+        &self,
+        at: Instant<'_>,
+        held: &[f64],
+        base: impl Fn(usize) -> BaseMotion,
+        forces: &mut [f64],
+    ) {
+        let (turned, speed) = (at.deflection[self.turn], at.rate[self.turn]);
+        let mesh_load: f64 = self
+            .torques
+            .iter()
+            .map(|&(coupling, entry)| entry * forces[coupling])
+            .sum();
+        let acceleration = self.rotation * (held[self.rigid] - mesh_load - at.rate[self.drag]);
+        (forces[self.turn], forces[self.drag]) = (0.0, 0.0);
+
+        let lateral = self.first..self.first + 2 * self.n;
+        let (x, y) = at.deflection[lateral.clone()].split_at(self.n);
+        let (vx, vy) = at.rate[lateral.clone()].split_at(self.n);
+        let (on_x, on_y) = forces[lateral].split_at_mut(self.n);
+        let excess = speed - at.slow[self.rotor];
+        for (i, row) in self.gyroscopic.column_iter().enumerate() {
+            let row = row.as_slice(); // symmetric
+            on_x[i] = excess * dot(row, vy) + acceleration * dot(row, y);
+            on_y[i] = -excess * dot(row, vx) - acceleration * dot(row, x);
+        }
+        let mut push = |shape: &[f64], force: [f64; 2]| {
+            for (i, shape) in shape.iter().enumerate() {
+                on_x[i] += shape * force[0];
+                on_y[i] += shape * force[1];
+            }
+        };
+        let angle = self.angle + turned;
+        for (shape, moment, phase) in &self.unbalances {
+            let (sine, cosine) = libm::sincos(angle + phase);
+            let [radial, tangential] = [moment * speed * speed, moment * acceleration];
+            push(
+                shape,
+                [
+                    -(radial * cosine + tangential * sine),
+                    -(radial * sine - tangential * cosine),
+                ],
+            );
+        }
+        for bow in &self.bows {
+            let (sine, cosine) = libm::sincos(angle + bow.phase);
+            push(&bow.load, [-cosine, -sine]);
+        }
+        for (shape, input, bearing) in &self.bearings {
+            let now = bearing.coefficients(speed);
+            let used = bearing.coefficients(at.slow[self.rotor]);
+            let base = base(*input);
+            // The block holds K(Om_0) u + C(Om_0) u'; the gearbox's motion is not among the held loads.
+            let relative = |shaft: &[f64]| dot(shape, shaft);
+            let displacement = [relative(x), relative(y)];
+            let velocity = [relative(vx), relative(vy)];
+            let forces = [
+                product(&difference(&now.stiffness, &used.stiffness), displacement),
+                product(&difference(&now.damping, &used.damping), velocity),
+                product(&now.stiffness, base.displacement).map(|force| -force),
+                product(&now.damping, base.velocity).map(|force| -force),
+            ];
+            for force in forces {
+                push(shape, force);
+            }
+        }
+    }
+}
+
+fn difference(one: &Planar, two: &Planar) -> Planar {
+    Planar {
+        xx: one.xx - two.xx,
+        xy: one.xy - two.xy,
+        yx: one.yx - two.yx,
+        yy: one.yy - two.yy,
+    }
+}

@@ -1,0 +1,383 @@
+//! The law of one mesh: how hard its teeth push in a given motion.
+//!
+//! ```text
+//!   phase      p = p_0 + s z_a phi_a / 2 pi          phi_a = phi_0 + Om t, in free spin the angle of gear a
+//!   bilateral  F = k(p) (delta - e) + c (delta' - e')
+//!   unilateral on the reference flank the same where both delta - e and F are positive, else 0; on the back flank with its own
+//!              line of action, +e and the backlash b: F = k(p) (delta_back + e - b) + c (delta_back' + e')
+//! ```
+//!
+//! Where the paper's equation (6) is taken literally, the torque follows the rotational part of delta alone.
+
+use super::Mesh;
+use crate::config::TorqueCoupling;
+use crate::mesh::StiffnessLaw;
+use crate::solver::{Instant, Piece, Spring};
+
+/// A flank of a unilateral mesh that carries nothing, and one that does: pieces of its law.
+const OPEN: usize = 0;
+const CLOSED: usize = 1;
+
+/// Breakpoints closer than this [pitches] to the present phase are behind, and closer than rounding of the
+/// phase, which grows over a long run.
+const PASSED: f64 = 1e-9;
+
+/// Where a mesh is in its cycle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Phase {
+    /// p [pitches].
+    pub(super) value: f64,
+    /// p' [pitches/s].
+    pub(super) rate: f64,
+}
+
+/// Deflection of a flank beyond its transmission error and backlash [m], and its rate [m/s].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Compression {
+    pub(super) depth: f64,
+    pub(super) rate: f64,
+}
+
+impl Mesh {
+    /// Number of laws with pieces: the stiffness, and each flank that can part.
+    pub(super) fn law_count(&self) -> usize {
+        if self.backlash.is_some() { 3 } else { 1 }
+    }
+
+    /// The phase in a motion.
+    pub(super) fn phase(&self, at: Instant<'_>) -> Phase {
+        match self.turning {
+            None => self.phase_at(at.time),
+            Some(coupling) => self.phase_of(at.deflection[coupling], at.rate[coupling]),
+        }
+    }
+
+    /// The phase at a time, at prescribed speed.
+    pub(super) fn phase_at(&self, time: f64) -> Phase {
+        Phase {
+            value: self.start_phase + self.phase_rate * time,
+            rate: self.phase_rate,
+        }
+    }
+
+    /// The phase when gear a has turned by an angle [rad], with its angular velocity [rad/s].
+    pub(super) fn phase_of(&self, angle: f64, velocity: f64) -> Phase {
+        Phase {
+            value: self.start_phase + self.pitches * angle,
+            rate: self.pitches * velocity,
+        }
+    }
+
+    /// k [N/m]; at a jump the value that holds from then on.
+    pub(super) fn stiffness(&self, phase: Phase) -> f64 {
+        self.stiffness_in(piece_of(&self.law, phase.ahead()), phase)
+    }
+
+    fn stiffness_in(&self, piece: Piece, phase: Phase) -> f64 {
+        self.factor * self.law.value(phase.value - piece.origin, piece.index)
+    }
+
+    /// Compression of a flank (0 reference, 1 back) from its deflection and rate.
+    pub(super) fn compression(&self, flank: usize, phase: Phase, motion: [f64; 2]) -> Compression {
+        let sign = if flank == 0 { 1.0 } else { -1.0 };
+        let gap = if flank == 0 {
+            0.0
+        } else {
+            self.backlash.unwrap_or(0.0)
+        };
+        let (error, error_rate) = (
+            self.error.value(phase.value),
+            self.error.slope(phase.value) * phase.rate,
+        );
+        Compression {
+            depth: motion[0] - sign * error - gap,
+            rate: motion[1] - sign * error_rate,
+        }
+    }
+
+    /// F of a flank with stiffness k; 0 where a unilateral flank is open.
+    pub(super) fn flank_force(&self, k: f64, compression: Compression) -> f64 {
+        let force = self.held_force(k, compression);
+        let open = self.backlash.is_some() && !(compression.depth > 0.0 && force > 0.0);
+        if open { 0.0 } else { force }
+    }
+
+    /// k d + c d'.
+    fn held_force(&self, k: f64, Compression { depth, rate }: Compression) -> f64 {
+        k * depth + self.damping * rate
+    }
+
+    /// Overwrites the forces of the mesh's couplings.
+    pub(super) fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
+        let phase = self.phase(at);
+        let k = self.stiffness_in(pieces[self.first_law], phase);
+        let first = self.first_coupling;
+        let seen = |coupling: usize| [at.deflection[coupling], at.rate[coupling]];
+        let held =
+            |flank: usize| self.held_force(k, self.compression(flank, phase, seen(first + flank)));
+        if self.backlash.is_some() {
+            for flank in [0, 1] {
+                let closed = pieces[self.first_law + 1 + flank].index == CLOSED;
+                forces[first + flank] = if closed { held(flank) } else { 0.0 };
+            }
+        } else {
+            forces[first] = held(0);
+            if self.torque_coupling == TorqueCoupling::AsPrinted {
+                let [deflection, rate] = seen(first + 1);
+                forces[first + 1] = k * deflection + self.damping * rate;
+            }
+        }
+        if let Some(observer) = self.turning {
+            forces[observer] = 0.0;
+        }
+    }
+
+    /// Overwrites the tangents of the mesh's couplings.
+    pub(super) fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
+        let held = Spring {
+            stiffness: self.stiffness_in(pieces[self.first_law], self.phase(at)),
+            damping: self.damping,
+        };
+        let own = &mut tangents[self.couplings()];
+        own.fill(held);
+        if self.backlash.is_some() {
+            for (tangent, piece) in own.iter_mut().zip(&pieces[self.first_law + 1..]) {
+                if piece.index == OPEN {
+                    *tangent = Spring::default();
+                }
+            }
+        }
+        if let Some(observer) = self.turning {
+            tangents[observer] = Spring::default();
+        }
+    }
+
+    /// Chooses the pieces of a stretch that begins with `start` and contains the time `inside`.
+    pub(super) fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]) {
+        let inside = match self.turning {
+            None => self.phase_at(inside).value,
+            Some(_) => self.phase(start).ahead(),
+        };
+        pieces[self.first_law] = piece_of(&self.law, inside);
+        if self.backlash.is_some() {
+            for flank in [0, 1] {
+                let closed = self.contact_margin(flank, pieces[self.first_law], start) > 0.0;
+                pieces[self.first_law + 1 + flank].index = if closed { CLOSED } else { OPEN };
+            }
+        }
+    }
+
+    /// Positive where a flank is pressed together and would push: in metres.
+    fn contact_margin(&self, flank: usize, stiffness: Piece, at: Instant<'_>) -> f64 {
+        let phase = self.phase(at);
+        let k = self.stiffness_in(stiffness, phase);
+        let coupling = self.first_coupling + flank;
+        let motion = [at.deflection[coupling], at.rate[coupling]];
+        let compression = self.compression(flank, phase, motion);
+        let by_force = compression.depth + self.damping / k * compression.rate;
+        // Written so that a NaN stays one.
+        if compression.depth <= by_force {
+            compression.depth
+        } else {
+            by_force
+        }
+    }
+
+    /// Positive while the motion keeps law number `law` of the mesh in its piece.
+    pub(super) fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64 {
+        if law == 0 {
+            if self.turning.is_none() || self.law.is_smooth() {
+                return f64::INFINITY;
+            }
+            let cycle = self.phase(at).value - piece.origin;
+            let [start, end] = self.ends(piece);
+            return (cycle - start).min(end - cycle);
+        }
+        // The stiffness that the contact is judged with: at its breakpoints the contact is entered anew.
+        let stiffness = piece_of(&self.law, self.phase(at).value);
+        let margin = self.contact_margin(law - 1, stiffness, at);
+        if piece.index == CLOSED {
+            margin
+        } else {
+            -margin
+        }
+    }
+
+    /// The piece that follows when the motion has ended one of law number `law`.
+    pub(super) fn next_piece(&self, law: usize, piece: Piece, at: Instant<'_>) -> Piece {
+        if law > 0 {
+            let index = if piece.index == OPEN { CLOSED } else { OPEN };
+            return Piece { index, ..piece };
+        }
+        let [start, end] = self.ends(piece);
+        let cycle = self.phase(at).value - piece.origin;
+        let last = self.law.starts().len() - 1; // a law has a first piece
+        let (origin, index) = (piece.origin, piece.index);
+        let (origin, index) = match 2.0 * cycle > start + end {
+            true if index == last => (origin + 1.0, 0),
+            true => (origin, index + 1),
+            false if index == 0 => (origin - 1.0, last),
+            false => (origin, index - 1),
+        };
+        Piece { origin, index }
+    }
+
+    /// Start and end of a piece of the stiffness in its cycle.
+    fn ends(&self, piece: Piece) -> [f64; 2] {
+        let starts = self.law.starts();
+        [
+            starts[piece.index],
+            starts.get(piece.index + 1).copied().unwrap_or(1.0),
+        ]
+    }
+
+    /// The first time after `time` at which the stiffness ends a piece at prescribed speed.
+    pub(super) fn next_breakpoint(&self, time: f64) -> f64 {
+        if self.turning.is_some() || self.law.is_smooth() || self.phase_rate == 0.0 {
+            return f64::INFINITY;
+        }
+        let piece = piece_of(&self.law, self.phase_at(time).ahead());
+        let [start, end] = self.ends(piece);
+        let next = if self.phase_rate > 0.0 { end } else { start };
+        (piece.origin + next - self.start_phase) / self.phase_rate
+    }
+}
+
+impl Phase {
+    /// The phase a moment later, beyond a breakpoint that has just been reached.
+    fn ahead(self) -> f64 {
+        self.value + self.rate.signum() * PASSED.max(8.0 * f64::EPSILON * self.value.abs())
+    }
+}
+
+fn piece_of(law: &StiffnessLaw, phase: f64) -> Piece {
+    let origin = phase.floor();
+    Piece {
+        origin,
+        index: law.piece(phase - origin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{LineOfAction, TransmissionError};
+    use crate::solver::Row;
+    use crate::train::GearAddress;
+
+    fn mesh(phase_rate: f64) -> Mesh {
+        Mesh {
+            gears: [GearAddress { rotor: 0, gear: 0 }; 2],
+            row: Row::default(),
+            rotation_row: Row::default(),
+            line: LineOfAction::external(0.0, 0.3, 1.0, 1.0, 1.0),
+            torque_coupling: TorqueCoupling::Consistent,
+            damping: 0.0,
+            law: StiffnessLaw::rectangular(1.0, 2.0, 1.6),
+            factor: 1.0,
+            error: TransmissionError::new(&[]),
+            backlash: None,
+            start_phase: 0.25,
+            pitches: 1.0,
+            phase_rate,
+            turning: None,
+            first_coupling: 0,
+            first_law: 0,
+        }
+    }
+
+    #[test]
+    fn breakpoints_follow_each_other_in_either_direction() {
+        // Phase 0.25 + rate t reaches 0.6, 1.0, 1.6 upwards and 0.0, -0.4, -1.0 downwards.
+        for (rate, phases) in [(10.0, [0.6, 1.0, 1.6]), (-10.0, [0.0, -0.4, -1.0])] {
+            let (mesh, mut time) = (mesh(rate), 0.0);
+            for phase in phases {
+                time = mesh.next_breakpoint(time);
+                assert!(
+                    (mesh.phase_at(time).value - phase).abs() < 1e-12,
+                    "rounding only"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn breakpoints_never_repeat_however_long_the_run() {
+        for start in [0.0, 1e3, 1e6, 1e9, -1e6] {
+            let (mesh, mut time) = (mesh(1800.0), start);
+            for _ in 0..20 {
+                let next = mesh.next_breakpoint(time);
+                assert!(next > time, "{next} after {time}");
+                time = next;
+            }
+        }
+    }
+
+    #[test]
+    fn a_piece_is_continued_to_both_of_its_ends() {
+        for rate in [10.0, -10.0] {
+            let mesh = mesh(rate);
+            let first = mesh.next_breakpoint(0.0);
+            let second = mesh.next_breakpoint(first);
+            let piece = |time: f64| piece_of(&mesh.law, mesh.phase_at(time).value);
+            let value = |piece: Piece| mesh.stiffness_in(piece, mesh.phase_at(first));
+            let (before, after) = (piece(0.5 * first), piece(0.5 * (first + second)));
+            assert_ne!(value(before), value(after));
+        }
+    }
+
+    #[test]
+    fn pieces_that_the_motion_ends_follow_each_other_in_either_direction() {
+        let mesh = Mesh {
+            turning: Some(0),
+            ..mesh(0.0)
+        };
+        // The phase 0.25 + angle leaves the piece [0, 0.6) upwards at 0.6 and downwards at 0.
+        let look = |angle: f64, from: Piece| {
+            let at = Instant {
+                time: 0.0,
+                deflection: &[angle],
+                rate: &[1.0],
+                slow: &[],
+            };
+            (mesh.margin(0, from, at), mesh.next_piece(0, from, at))
+        };
+        let first = Piece {
+            origin: 0.0,
+            index: 0,
+        };
+        let (margin, next) = look(0.351, first);
+        assert!(
+            margin < 0.0
+                && next
+                    == Piece {
+                        origin: 0.0,
+                        index: 1
+                    }
+        );
+        let (margin, next) = look(-0.251, first);
+        assert!(
+            margin < 0.0
+                && next
+                    == Piece {
+                        origin: -1.0,
+                        index: 1
+                    }
+        );
+        let (margin, next) = look(
+            0.76,
+            Piece {
+                origin: 0.0,
+                index: 1,
+            },
+        );
+        assert!(
+            margin < 0.0
+                && next
+                    == Piece {
+                        origin: 1.0,
+                        index: 0
+                    }
+        );
+    }
+}

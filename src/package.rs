@@ -96,7 +96,8 @@ fn contradicting_flanks(train: &GearTrain, model: &ModalModel) -> Vec<Problem> {
     };
     let mut warnings = Vec::new();
     for (index, (mesh, force)) in train.meshes.iter().zip(forces).enumerate() {
-        if force < 0.0 {
+        // A flank that can part simply leaves the load to the other one.
+        if force < 0.0 && mesh.backlash.is_none() {
             let message = format!(
                 "flank: the torques give a static mesh force of {force:.3} N, which pulls this flank apart; \
                  with bilateral contact the mesh works as if glued, the other flank is probably meant"

@@ -25,6 +25,8 @@ pub struct Mesh {
     pub damping: MeshDamping,
     /// Whether the teeth can part.
     pub contact: Contact,
+    /// Distance that the back flank of a unilateral contact has to travel along its normal [m]. >= 0
+    pub backlash: f64,
     /// Which motions the mesh torque follows.
     pub torque_coupling: TorqueCoupling,
     /// Stiffness over the mesh phase.
@@ -65,15 +67,12 @@ pub enum MeshDamping {
 }
 
 /// Whether the teeth can part.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Contact {
     /// The teeth hold on to each other: linear, as in the paper.
     Bilateral,
     /// The teeth press only, on either flank.
-    Unilateral {
-        /// Distance that the back flank has to travel along its normal [m]. >= 0
-        backlash: f64,
-    },
+    Unilateral,
 }
 
 /// Which motions the mesh torque follows.

@@ -119,6 +119,15 @@ pub struct RadialForce {
     pub exponent: f64,
 }
 
+impl RadialForce {
+    /// No force.
+    pub const NONE: RadialForce = RadialForce {
+        clearance: 0.0,
+        coefficient: 0.0,
+        exponent: 1.0,
+    };
+}
+
 /// Bearing coefficients over the speed of the rotor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SpeedTable {

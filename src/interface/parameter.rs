@@ -1,6 +1,6 @@
 //! The numbers of a model that a master may change until initialization ends.
 
-use crate::config::{Config, GearboxVibration, Planar};
+use crate::config::{Config, GearboxVibration, Planar, RadialForce};
 
 /// A parameter, by the place of its number in the configuration. Indices count from zero.
 #[expect(
@@ -33,6 +33,10 @@ pub enum Parameter {
     UnbalancePhase { rotor: usize, unbalance: usize },
     /// `<mesh>.stiffness_factor`
     StiffnessFactor { mesh: usize },
+    /// `<mesh>.backlash`, of unilateral contact.
+    Backlash { mesh: usize },
+    /// `<rotor>.<bearing>.clearance`, of a radial force.
+    Clearance { rotor: usize, bearing: usize },
     /// `gearbox_vibration.*`
     Vibration(VibrationEntry),
     /// `simulation.tolerance`
@@ -94,6 +98,11 @@ impl Parameter {
                 &mut config.rotors[rotor].unbalances[unbalance].phase
             }
             Parameter::StiffnessFactor { mesh } => &mut config.meshes[mesh].stiffness_factor,
+            Parameter::Backlash { mesh } => &mut config.meshes[mesh].backlash,
+            Parameter::Clearance { rotor, bearing } => {
+                let bearing = &mut config.rotors[rotor].bearings[bearing];
+                &mut bearing.nonlinear.get_or_insert(RadialForce::NONE).clearance
+            }
             Parameter::Vibration(entry) => entry.slot(&mut config.gearbox_vibration),
             Parameter::Tolerance => &mut config.simulation.tolerance,
         }

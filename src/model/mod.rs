@@ -28,7 +28,7 @@ mod tooth_contact;
 
 use nalgebra::DMatrix;
 
-use crate::config::{Contact, Planar, SpeedMode, TorqueCoupling};
+use crate::config::{Planar, SpeedMode, TorqueCoupling};
 use crate::mesh::{GearMotion, LineOfAction, StiffnessLaw, TransmissionError};
 use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
 use crate::solver::{Block, Coupling, Harmonic, Row, System};
@@ -342,11 +342,7 @@ fn join(system: &mut System, rotors: &[Rotor], mesh: &train::Mesh, free: bool) -
         row: row.clone(),
         column: row.clone(),
     };
-    let backlash = match mesh.contact {
-        Contact::Bilateral => None,
-        Contact::Unilateral { backlash } => Some(backlash),
-    };
-    match (mesh.torque_coupling, backlash) {
+    match (mesh.torque_coupling, mesh.backlash) {
         (TorqueCoupling::AsPrinted, _) => {
             let mut lateral = row.clone();
             lateral.add(-1.0, &rotation_row);
@@ -381,7 +377,7 @@ fn join(system: &mut System, rotors: &[Rotor], mesh: &train::Mesh, free: bool) -
         law: mesh.stiffness.clone(),
         factor: mesh.stiffness_factor,
         error: mesh.transmission_error.clone(),
-        backlash,
+        backlash: mesh.backlash,
         start_phase: mesh.start_phase,
         pitches: mesh.pitches,
         phase_rate: mesh.phase_rate,

@@ -33,8 +33,8 @@ pub(super) fn resolve_mesh(
         format!("must be within -1e6 and 1e6 pitches, found {phase}")
     });
     rules.positive("stiffness_factor", mesh.stiffness_factor, "");
-    if let Contact::Unilateral { backlash } = mesh.contact {
-        rules.not_negative("backlash", backlash, "m");
+    if mesh.contact == Contact::Unilateral {
+        rules.not_negative("backlash", mesh.backlash, "m");
         let printed = mesh.torque_coupling == TorqueCoupling::AsPrinted;
         rules.ensure("torque_coupling", !printed, || {
             "as_printed is the paper's linear contact; use contact = \"bilateral\" with it"
@@ -121,7 +121,7 @@ fn build_mesh(
             sizes[0].0,
             sizes[1].0,
         ),
-        contact: mesh.contact,
+        backlash: (mesh.contact == Contact::Unilateral).then_some(mesh.backlash),
         torque_coupling: mesh.torque_coupling,
         stiffness,
         stiffness_factor: mesh.stiffness_factor,

@@ -18,8 +18,8 @@ mod tooth_geometry;
 mod validate;
 
 use crate::config::{
-    self, BasisModes, BasisSupport, Bow, Config, Contact, Disk, GearboxVibration, Lines, Material,
-    Probe, Problem, Simulation, Torque, TorqueCoupling, Unbalance,
+    self, BasisModes, BasisSupport, Bow, Config, Disk, GearboxVibration, Lines, Material, Probe,
+    Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
 use crate::mesh::{LineOfAction, StiffnessLaw, TransmissionError};
 
@@ -135,8 +135,8 @@ pub struct Mesh {
     pub gears: [GearAddress; 2],
     /// Line of action between them.
     pub line: LineOfAction,
-    /// Whether the teeth can part.
-    pub contact: Contact,
+    /// Unilateral contact, with this backlash [m].
+    pub backlash: Option<f64>,
     /// Which motions the mesh torque follows.
     pub torque_coupling: TorqueCoupling,
     /// Stiffness over the phase, without the factor.

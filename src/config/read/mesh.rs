@@ -12,6 +12,7 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
         ("consistent", consistent),
         ("as_printed", TorqueCoupling::AsPrinted),
     ];
+    let (contact, backlash) = contact(&table);
     let mesh = Mesh {
         name: table.string("name"),
         gears: table.pair_of_strings("gears"),
@@ -21,7 +22,8 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
         flank: flank(&table),
         phase: table.optional_number("phase"),
         damping: mesh_damping(&table),
-        contact: contact(&table),
+        contact,
+        backlash,
         torque_coupling: table
             .choice("torque_coupling", Some(consistent), &couplings)
             .unwrap_or(consistent),
@@ -47,20 +49,20 @@ fn error_harmonic(table: Table<'_, '_>) -> ErrorHarmonic {
     harmonic
 }
 
-fn contact(table: &Table<'_, '_>) -> Contact {
-    let backlash = table.number_or("backlash", 0.0);
+fn contact(table: &Table<'_, '_>) -> (Contact, f64) {
     let contacts = [
         ("bilateral", Contact::Bilateral),
-        ("unilateral", Contact::Unilateral { backlash }),
+        ("unilateral", Contact::Unilateral),
     ];
     let contact = table.choice("contact", Some(Contact::Bilateral), &contacts);
+    let backlash = table.number_or("backlash", 0.0);
     if contact == Some(Contact::Bilateral) && backlash != 0.0 {
         let message = format!(
             "must be 0 with bilateral contact, found {backlash}; backlash needs contact = \"unilateral\""
         );
         table.problem("backlash", message);
     }
-    contact.unwrap_or(Contact::Bilateral)
+    (contact.unwrap_or(Contact::Bilateral), backlash)
 }
 
 fn flank(table: &Table<'_, '_>) -> Flank {

@@ -168,11 +168,7 @@ fn radial_force(table: Table<'_, '_>) -> RadialForce {
     ];
     // Without a law nobody can say which keys are known: the table is not finished.
     let Some(read_law) = table.choice("law", None, &laws) else {
-        return RadialForce {
-            clearance: 0.0,
-            coefficient: 0.0,
-            exponent: 1.0,
-        };
+        return RadialForce::NONE;
     };
     let force = read_law(&table);
     table.finish();

@@ -42,6 +42,19 @@ impl Table<'_> {
                 parameter,
                 text,
             );
+            if mesh.backlash.is_some() {
+                let text = format!(
+                    "Backlash of mesh {}: way of the back flank along its normal",
+                    mesh.name
+                );
+                let parameter = Parameter::Backlash { mesh: index };
+                self.parameter(
+                    format!("{}.backlash", mesh.name),
+                    Unit::Meter,
+                    parameter,
+                    text,
+                );
+            }
         }
         let vibration = [
             (
@@ -130,6 +143,16 @@ impl Table<'_> {
                 let text = format!("Damping {letters} of {place}");
                 self.parameter(name, Unit::NewtonSecondPerMeter, parameter, text);
             }
+        }
+        let radial = rotor.bearings.iter().enumerate();
+        for (bearing, data) in radial.filter(|(_, data)| data.nonlinear.is_some()) {
+            let text = format!("Radial clearance of bearing {} of {shaft}", data.name);
+            let parameter = Parameter::Clearance {
+                rotor: index,
+                bearing,
+            };
+            let name = format!("{shaft}.{}.clearance", data.name);
+            self.parameter(name, Unit::Meter, parameter, text);
         }
         for (unbalance, data) in rotor.unbalances.iter().enumerate() {
             let (prefix, place) = (

@@ -11,13 +11,14 @@
 //! represent it. Per block K is inverted without R; what remains are the mesh forces F and the rotations r:
 //!
 //! ```text
-//!   F / k_mean + (w K^-1 b) F - (w R) r = w K^-1 f           one row per coupling
+//!   F + k_mean ((w K^-1 b) F - (w R) r) = k_mean w K^-1 f    one row per coupling
 //!   (R' b) F + Z mu                     = R' f               one row per rigid rotation
 //!   Z' r                                = 0
 //! ```
 //!
 //! Unilateral flanks that the solution does not press together are left out, and the secant stiffness of radial
-//! bearings follows it, until both agree with the position they lead to.
+//! bearings follows it, until both agree with the position they lead to. K holds the first guess of that stiffness, so
+//! that it is regular where nothing else holds a shaft; the spring of the bearing is what the secant differs by.
 
 use core::fmt;
 
@@ -57,9 +58,9 @@ const SETTLED: f64 = 1e-13;
 
 /// Solves for the static displacement under the inputs' torques and gearbox displacements.
 pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, NoEquilibrium> {
-    let compliance = Compliance::of(model)?;
     let load = inputs.static_load(model);
     let mut springs = Springs::first_guess(model, inputs);
+    let compliance = Compliance::of(model, &springs.springs)?;
     for _ in 0..MOST_ITERATIONS {
         let equilibrium = solve(&compliance, &load, &springs.active())?;
         if springs.follow(model, &equilibrium.0) {
@@ -75,12 +76,13 @@ pub fn equilibrium(model: &ModalModel, inputs: &Inputs) -> Result<Equilibrium, N
 /// Position of the rotors held by linear springs.
 struct Position(Vec<f64>);
 
-/// A spring along a coupling: F = k (w q - gap).
+/// A spring along a coupling: force k (w q - gap), of which K already holds k_0 w q.
 #[derive(Debug, Clone, Copy)]
 struct StaticSpring {
     coupling: usize,
     stiffness: f64,
     gap: f64,
+    in_block: f64,
 }
 
 fn solve(
@@ -102,14 +104,16 @@ fn solve(
     let elastic = compliance.apply(&load);
     for (i, spring) in springs.iter().enumerate() {
         let Coupling { row, column } = coupling(spring);
-        rhs[i] = row.dot(&elastic) - spring.gap;
-        matrix[(i, i)] += 1.0 / spring.stiffness;
+        let k = spring.stiffness - spring.in_block;
+        rhs[i] = k * row.dot(&elastic) - spring.stiffness * spring.gap;
+        matrix[(i, i)] += 1.0;
         let response = compliance.apply(&column.to_dense(model.system.size));
         for (l, other) in springs.iter().enumerate() {
-            matrix[(l, i)] += coupling(other).row.dot(&response);
+            let k = other.stiffness - other.in_block;
+            matrix[(l, i)] += k * coupling(other).row.dot(&response);
         }
         for (j, rotation) in rigid.iter().enumerate() {
-            matrix[(i, m + j)] = -row_on_rigid[(i, j)];
+            matrix[(i, m + j)] = -k * row_on_rigid[(i, j)];
             matrix[(m + j, i)] = column.dot_row(rotation);
         }
     }
@@ -153,6 +157,7 @@ impl Springs {
                     coupling,
                     stiffness: mesh.mean_stiffness(),
                     gap: mesh.backlash.filter(|_| back).unwrap_or(0.0),
+                    in_block: 0.0,
                 });
             }
         }
@@ -167,6 +172,7 @@ impl Springs {
                     coupling: bearing.first_coupling + axis,
                     stiffness,
                     gap,
+                    in_block: stiffness,
                 });
             }
         }
@@ -262,12 +268,22 @@ struct Compliance<'a> {
 }
 
 impl<'a> Compliance<'a> {
-    fn of(model: &'a ModalModel) -> Result<Self, NoEquilibrium> {
+    fn of(model: &'a ModalModel, springs: &[StaticSpring]) -> Result<Self, NoEquilibrium> {
         let mut inverses = Vec::new();
         let mut rigid = Vec::new();
         for (index, blocks) in model.system.blocks.chunks(2).enumerate() {
             let loose = NoEquilibrium { rotor: Some(index) };
-            inverses.push(invert(&blocks[0].stiffness).ok_or(loose)?);
+            let mut lateral = blocks[0].stiffness.clone();
+            for spring in springs.iter().filter(|spring| spring.in_block > 0.0) {
+                let Coupling { row, column } = &model.system.couplings[spring.coupling];
+                if let (Some(row), Some(column)) =
+                    (row.in_block(2 * index), column.in_block(2 * index))
+                {
+                    let (row, column) = (DVector::from_vec(row), DVector::from_vec(column));
+                    lateral.ger(spring.in_block, &column, &row, 1.0);
+                }
+            }
+            inverses.push(invert(&lateral).ok_or(loose)?);
             // Torsion is symmetric: what its supports held and nothing else does is a rigid rotation.
             let torsion = blocks[1].stiffness.clone().symmetric_eigen();
             let mut inverse = DMatrix::zeros(blocks[1].len(), blocks[1].len());

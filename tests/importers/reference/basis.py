@@ -31,12 +31,15 @@ def basis(rotor, opt, full):
 
 def static_shapes(k, m, phi, loads, support, rigid):
     """Deflections under unit loads (inertia relief when free), made orthonormal to phi and to each other (eq 4),
-    in the order of their frequencies with the supports of the basis."""
+    in the order of their frequencies with the supports of the basis.  Rigid motions are among them: they are in phi
+    unless the supports of the basis have bent them, and a shaft must be able to follow its neighbours without strain."""
     f = np.eye(len(k))[:, sorted(set(loads))]
-    b = m @ modes(k, m, rigid)[1][:, :rigid]
+    free = modes(k, m, rigid)[1][:, :rigid]
+    b = m @ free
     f = f - b @ np.linalg.solve(m, b).T @ f                                # rigid modes r = M^-1 b: f - M r r' f
     bordered = np.block([[k, b], [b.T, np.zeros((rigid, rigid))]])
     x = np.linalg.solve(bordered, np.vstack([f, np.zeros((rigid, f.shape[1]))]))[: len(k)]
+    x = np.hstack([x, free])
     # In the coordinates y = L' x (M = L L') orthonormal is what it is in a textbook.
     lower = np.linalg.cholesky(m)
     y, p = lower.T @ x, lower.T @ phi

@@ -9,7 +9,7 @@ The potential of bearings and contacts is convex, so damped Newton steps
 find the contacts and clearances that close, each no longer than until the potential rises along it: dq.g(q + a dq) = 0.
 """
 import numpy as np
-from scipy.linalg import null_space
+from scipy.linalg import eigh, null_space
 from scipy.optimize import brentq
 
 
@@ -39,8 +39,7 @@ def equilibrium(s, base_motion, torques):
         j = k + s.left.T @ ((s.mesh_mean * closed)[:, None] * s.right)
         return j + sum((rows.T @ law.stiffness(rows @ q - moved) @ rows for law, rows, moved in radial), np.zeros((s.n, s.n)))
 
-    # Rotations that leave every mesh as it is; as columns of M they carry the unbalanced torque.
-    carrier = s.mass @ s.rigid @ null_space(np.vstack([m.right for m in s.meshes] + [np.zeros(s.n)]) @ s.rigid, rcond=1e-6)
+    carrier = s.mass @ rigid_motions(s, k)
     corner = np.zeros((carrier.shape[1],) * 2)
     project = np.eye(s.n) - carrier @ np.linalg.solve(carrier.T @ s.minv @ carrier, carrier.T @ s.minv)
 
@@ -64,3 +63,11 @@ def equilibrium(s, base_motion, torques):
         if size(g) < 1e-13 * start and mu < 1e-6:
             return q
     raise RuntimeError("no equilibrium found")
+
+
+def rigid_motions(s, k):
+    """Rotations that strain nothing and leave every mesh as it is.  A few modes computed with torsional supports cannot
+    rotate without strain: what then vibrates, above 0.05 Hz, is not rigid."""
+    motions = s.rigid @ null_space(np.vstack([m.right for m in s.meshes] + [np.zeros(s.n)]) @ s.rigid, rcond=1e-6)
+    w2, v = eigh(motions.T @ k @ motions, motions.T @ s.mass @ motions)
+    return motions @ v[:, w2 < (2 * np.pi * 0.05) ** 2]

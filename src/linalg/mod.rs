@@ -107,15 +107,15 @@ pub fn largest(vector: &DVector<f64>) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// y += scale A x, without allocation. Lengths: A is `y.len()` x `x.len()`.
-pub fn multiply_add(scale: f64, matrix: &DMatrix<f64>, x: &[f64], y: &mut [f64]) {
+/// y += scale A x, without allocation. A is `y.len()` x `x.len()`, column by column.
+pub fn multiply_add(scale: f64, matrix: &[f64], x: &[f64], y: &mut [f64]) {
     let n = y.len();
-    debug_assert_eq!((matrix.nrows(), matrix.ncols()), (n, x.len()));
+    debug_assert_eq!(matrix.len(), n * x.len());
     if n == 0 {
         return;
     }
     // Four columns at a time: y is loaded and stored a quarter as often.
-    let (quads, rest) = matrix.as_slice().split_at(x.len() / 4 * 4 * n);
+    let (quads, rest) = matrix.split_at(x.len() / 4 * 4 * n);
     let (x_quads, x_rest) = x.split_at(x.len() / 4 * 4);
     for (columns, x) in quads.chunks_exact(4 * n).zip(x_quads.chunks_exact(4)) {
         let (c0, columns) = columns.split_at(n);

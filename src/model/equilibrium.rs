@@ -312,7 +312,12 @@ impl<'a> Compliance<'a> {
         let mut displacement = vec![0.0; load.len()];
         for (block, inverse) in self.model.system.blocks.iter().zip(&self.inverses) {
             let range = block.range();
-            multiply_add(1.0, inverse, &load[range.clone()], &mut displacement[range]);
+            multiply_add(
+                1.0,
+                inverse.as_slice(),
+                &load[range.clone()],
+                &mut displacement[range],
+            );
         }
         displacement
     }

@@ -10,8 +10,9 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use super::super::{Block, System};
-use crate::linalg::{Group, decouple};
+use super::super::{Block, Harmonic, State, System};
+use super::polynomials::POINTS;
+use crate::linalg::{Group, add_scaled, decouple, multiply_add};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
 const SOFTEST: f64 = 1.0;
@@ -105,5 +106,116 @@ impl Part {
     /// Number of states 2n.
     pub(super) fn len(&self) -> usize {
         self.shapes.ncols()
+    }
+
+    /// Number of deflections and rates of all sensors at all points.
+    pub(super) fn readings(&self) -> usize {
+        2 * POINTS * self.sensors.len()
+    }
+
+    /// The number of one of them: deflection (`what` = 0) or rate (1) of a sensor at a point.
+    pub(super) fn reading(&self, point: usize, what: usize, sensor: usize) -> usize {
+        (2 * point + what) * self.sensors.len() + sensor
+    }
+}
+
+/// All blocks taken apart.
+pub(super) fn take_apart(system: &System, blocks: &[Block], harmonics: &[Harmonic]) -> Vec<Part> {
+    let part = |(index, block): (usize, &Block)| {
+        let own: Vec<_> = harmonics
+            .iter()
+            .enumerate()
+            .filter_map(|(number, harmonic)| {
+                let [cosine, sine] = harmonic.on_block(block)?;
+                Some((number, cosine, sine))
+            })
+            .collect();
+        Part::new(system, index, block, &own)
+    };
+    blocks.iter().enumerate().map(part).collect()
+}
+
+/// The motion of one part.
+#[derive(Debug, Clone)]
+pub(super) struct PartMotion {
+    /// eta.
+    pub(super) states: Vec<f64>,
+    /// B eta + load.
+    pub(super) derivative: Vec<f64>,
+    /// V^-1 [0; held load].
+    load: Vec<f64>,
+    /// Deflections and rates at the points that the part adds: see [`Part::reading`].
+    pub(super) readings: Vec<f64>,
+}
+
+impl PartMotion {
+    pub(super) fn at_rest(part: &Part) -> PartMotion {
+        let zeros = || vec![0.0; part.len()];
+        PartMotion {
+            states: zeros(),
+            derivative: zeros(),
+            load: zeros(),
+            readings: vec![0.0; part.readings()],
+        }
+    }
+
+    /// Decoupled states from displacements and velocities, and the held load in them.
+    pub(super) fn take_over(&mut self, part: &Part, state: &State, held: &[f64]) {
+        let (range, n) = (part.coordinates.clone(), part.len() / 2);
+        let (per_position, per_velocity) = part.inverse.as_slice().split_at(n * part.len());
+        self.states.fill(0.0);
+        multiply_add(
+            1.0,
+            per_position,
+            &state.position[range.clone()],
+            &mut self.states,
+        );
+        multiply_add(
+            1.0,
+            per_velocity,
+            &state.velocity[range.clone()],
+            &mut self.states,
+        );
+        self.load.fill(0.0);
+        multiply_add(1.0, per_velocity, &held[range], &mut self.load);
+    }
+
+    /// Displacements and velocities from decoupled states.
+    pub(super) fn hand_back(&self, part: &Part, state: &mut State) {
+        let (range, n) = (part.coordinates.clone(), part.len() / 2);
+        let position = &mut state.position[range.clone()];
+        let velocity = &mut state.velocity[range];
+        position.fill(0.0);
+        velocity.fill(0.0);
+        for (shape, value) in part.shapes.column_iter().zip(&self.states) {
+            add_scaled(*value, &shape.as_slice()[..n], position);
+            add_scaled(*value, &shape.as_slice()[n..], velocity);
+        }
+    }
+
+    /// B eta + load.
+    pub(super) fn differentiate(&mut self, part: &Part) {
+        self.derivative.copy_from_slice(&self.load);
+        for group in &part.groups {
+            let range = group.first..group.first + group.matrix.nrows();
+            let target = &mut self.derivative[range.clone()];
+            multiply_add(1.0, group.matrix.as_slice(), &self.states[range], target);
+        }
+    }
+
+    /// eta + h phi_1 (B eta + load): the step without forces. `gain` holds h phi_1 of every group.
+    pub(super) fn advance(&mut self, part: &Part, gain: &[f64]) {
+        let mut gain = gain;
+        for group in &part.groups {
+            let range = group.first..group.first + group.matrix.nrows();
+            let (own, rest) = gain.split_at(group.matrix.len());
+            multiply_add(
+                1.0,
+                own,
+                &self.derivative[range.clone()],
+                &mut self.states[range],
+            );
+            gain = rest;
+        }
     }
 }

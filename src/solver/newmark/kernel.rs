@@ -124,8 +124,18 @@ impl Kernel {
         for block in &system.blocks {
             let range = block.range();
             let target = &mut acceleration[range.clone()];
-            multiply_add(-1.0, &block.damping, &track.velocity[range.clone()], target);
-            multiply_add(-1.0, &block.stiffness, &track.position[range], target);
+            multiply_add(
+                -1.0,
+                block.damping.as_slice(),
+                &track.velocity[range.clone()],
+                target,
+            );
+            multiply_add(
+                -1.0,
+                block.stiffness.as_slice(),
+                &track.position[range],
+                target,
+            );
         }
         let [deflection, rate] = &mut self.present;
         system.deflections_into(&track.position, &track.velocity, deflection, rate);
@@ -164,19 +174,19 @@ impl Kernel {
             let load = &mut work.load[range.clone()];
             multiply_add(
                 -1.0,
-                &block.damping,
+                block.damping.as_slice(),
                 &work.predicted_velocity[range.clone()],
                 load,
             );
             multiply_add(
                 -1.0,
-                &block.stiffness,
+                block.stiffness.as_slice(),
                 &work.predicted_position[range.clone()],
                 load,
             );
             let y = &mut work.next_acceleration[range];
             y.fill(0.0);
-            multiply_add(1.0, inverse, load, y);
+            multiply_add(1.0, inverse.as_slice(), load, y);
         }
         for (m, Coupling { row, .. }) in system.couplings.iter().enumerate() {
             let y = row.dot(&work.next_acceleration);
@@ -343,7 +353,7 @@ impl Operators {
             for (Part { block, values, .. }, source) in response.parts.iter_mut().zip(&column.parts)
             {
                 values.fill(0.0);
-                multiply_add(1.0, &self.inverse[*block], &source.values, values);
+                multiply_add(1.0, self.inverse[*block].as_slice(), &source.values, values);
             }
         }
         for (m, Coupling { row, .. }) in system.couplings.iter().enumerate() {

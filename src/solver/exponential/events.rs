@@ -28,8 +28,7 @@ impl Kernel {
             for point in IN_TIME {
                 let at = instant(&self.sight.points[point], span.at(PLACES[point]), slow);
                 let margin = task.forcing.margin(law, piece, at);
-                // Written so that a NaN ends the piece.
-                if !(margin >= 0.0) {
+                if margin < 0.0 || margin.is_nan() {
                     let time = self.root(task, slow, span, (law, piece), (previous, point));
                     if earliest.is_none_or(|(_, other)| time < other) {
                         earliest = Some((law, time));

@@ -10,7 +10,7 @@ pub(super) const NODES: usize = 4;
 pub(super) const POINTS: usize = 5;
 /// Where they are in the step: a, b, 1, and a/2, 1 - a/2 with a = (1 - 1/sqrt 5)/2, b = 1 - a.
 pub(super) const PLACES: [f64; POINTS] = [INNER, 1.0 - INNER, 1.0, 0.5 * INNER, 1.0 - 0.5 * INNER];
-const INNER: f64 = 0.276_393_202_250_021_03;
+const INNER: f64 = 0.276_393_202_250_021;
 const SQRT_5: f64 = 2.236_067_977_499_79;
 /// The point at the end of the step, and those for comparison.
 pub(super) const END: usize = 2;
@@ -37,7 +37,7 @@ pub(super) const LAGRANGE: [[f64; NODES]; NODES] = [
 /// l_j at the points for comparison.
 pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; 2] = [
     [
-        0.348_606_797_749_978_97,
+        0.348_606_797_749_979,
         0.779_508_497_187_473_7,
         -0.184_016_994_374_947_42,
         0.055_901_699_437_494_74,
@@ -46,7 +46,7 @@ pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; 2] = [
         0.055_901_699_437_494_74,
         -0.184_016_994_374_947_42,
         0.779_508_497_187_473_7,
-        0.348_606_797_749_978_97,
+        0.348_606_797_749_979,
     ],
 ];
 /// Powers of s/h in use.

@@ -198,8 +198,7 @@ impl Pair {
                 task.forcing.margin(law, piece, at)
             };
             let after = margin(&self.sight[1], span.end);
-            // Written so that a NaN ends the piece.
-            if !(after >= 0.0) {
+            if after < 0.0 || after.is_nan() {
                 // The margin as a straight line: the step is short.
                 let before = margin(&self.sight[0], span.start).max(0.0);
                 let part = if before.is_finite() && after.is_finite() {

@@ -4,6 +4,8 @@
 //! outside sees, evaluated with the inputs as they are now. A [`Snapshot`] is everything that influences a
 //! later step. Knows no FMI.
 
+use serde::{Deserialize, Serialize};
+
 use crate::config::{self, SolverChoice, Start};
 use crate::model::{Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium};
 use crate::solver::{Counts, Integrator, State, StepError};
@@ -21,7 +23,7 @@ pub struct Simulation {
 }
 
 /// Everything that influences a later step of the same model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     state: State,
     inputs: Inputs,
@@ -40,20 +42,29 @@ impl Simulation {
             Start::Rest => vec![0.0; model.system.size],
             Start::Equilibrium => equilibrium(&model, &inputs)?.position,
         };
+        let mut simulation = Simulation::at_rest(model, inputs, settings);
+        let velocity = simulation.model.rigid_velocity();
+        let system = &simulation.model.system;
+        simulation.state = simulation.solver.state_at(system, time, position, velocity);
+        Ok(simulation)
+    }
+
+    /// At time 0 without deformation and rotation, for a solution to be put in: see [`Simulation::restore`].
+    pub fn at_rest(model: ModalModel, inputs: Inputs, settings: &config::Simulation) -> Simulation {
         let solver = match settings.solver {
             SolverChoice::Exponential => Integrator::exponential(&model.system, model.harmonics()),
             SolverChoice::Newmark => Integrator::newmark(&model.system),
         };
-        let state = solver.state_at(&model.system, time, position, model.rigid_velocity());
-        let held = vec![0.0; model.system.size];
-        Ok(Simulation {
-            model,
+        let zeros = || vec![0.0; model.system.size];
+        let state = solver.state_at(&model.system, 0.0, zeros(), zeros());
+        Simulation {
+            held: zeros(),
             state,
             inputs,
-            held,
             solver,
             tolerance: settings.tolerance,
-        })
+            model,
+        }
     }
 
     /// Integrates to exactly `time` with the inputs held. After an error the simulation is as before.
@@ -102,9 +113,17 @@ impl Simulation {
         }
     }
 
-    /// Continues from a snapshot of the same model, to the bit.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
+    /// Continues from a snapshot of the same model, to the bit. One of another shape, or with numbers that are none,
+    /// gives `false` and changes nothing.
+    #[must_use]
+    pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
+        let same_inputs = snapshot.inputs.torques.len() == self.inputs.torques.len()
+            && snapshot.inputs.bases.len() == self.inputs.bases.len();
+        if !(same_inputs && snapshot.state.is_like(&self.state)) {
+            return false;
+        }
         self.state.copy_from(&snapshot.state);
         self.inputs.clone_from(&snapshot.inputs);
+        true
     }
 }

@@ -335,11 +335,11 @@ fn restoring_a_snapshot_continues_bit_for_bit() {
     let first = record(&mut simulation, 2e-5, 100);
     simulation.inputs_mut().torques[0] = 0.0;
     simulation.advance_to(1.0e-2).unwrap();
-    simulation.restore(&snapshot);
+    assert!(simulation.restore(&snapshot));
     assert_eq!(record(&mut simulation, 2e-5, 100).mesh, first.mesh);
     // A fresh instance knows nothing of what happened before.
     let mut other = started(&text, 1e-4);
-    other.restore(&snapshot);
+    assert!(other.restore(&snapshot));
     assert_eq!(record(&mut other, 2e-5, 100).mesh, first.mesh);
 }
 

@@ -47,6 +47,8 @@ fn co_simulation(xml: &mut Xml, config: &Config) -> io::Result<()> {
         ("modelIdentifier", config.name.as_str()),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
     ];
     xml.create_element("CoSimulation")
         .with_attributes(attributes)

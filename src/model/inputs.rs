@@ -7,12 +7,14 @@
 
 use core::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Bearing, ModalModel, Rotor};
 use crate::config::{GearboxVibration, Planar};
 use crate::solver::Harmonic;
 
 /// Everything a master sets while the simulation runs, held between communication points.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     /// External torques [N m], in the order of [`ModalModel::torques`].
     pub torques: Vec<f64>,
@@ -21,7 +23,7 @@ pub struct Inputs {
 }
 
 /// Motion of the gearbox at one bearing.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct BaseMotion {
     /// Displacement in x and y [m].
     pub displacement: [f64; 2],

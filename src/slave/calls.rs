@@ -1,7 +1,9 @@
 //! Which FMI call is legal in which state: FMI 2.0.4, section 4.2.4, as data.
 
+use serde::{Deserialize, Serialize};
+
 /// Where a slave is in its life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum LifeCycle {
     /// After instantiate or reset: parameters and start values may be set.
     Instantiated,

@@ -2,7 +2,7 @@
 
 use super::Error;
 use crate::config::{Config, Problem};
-use crate::interface::{Interface, Variable};
+use crate::interface::{Interface, Parameter, Quantity, Variable};
 use crate::model::ModalModel;
 use crate::rotor::ModeCounts;
 use crate::train::{SpeedRatio, speed_ratios, validate};
@@ -51,6 +51,28 @@ impl Design {
                 "value reference {reference} is unknown to this FMU"
             ))
         })
+    }
+
+    /// All parameters in the order of the table.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = Parameter> {
+        let variables = self.interface.variables.iter();
+        variables.filter_map(|variable| match variable.quantity {
+            Quantity::Parameter(parameter) => Some(parameter),
+            _ => None,
+        })
+    }
+
+    /// Writes a parameter into a configuration of this model; the speeds of meshed rotors follow their leader's.
+    pub(super) fn write(&self, config: &mut Config, parameter: Parameter, value: f64) {
+        *parameter.slot(config) = value;
+        for (rotor, ratio) in config.rotors.iter_mut().zip(&self.ratios) {
+            let leading = Parameter::MeanSpeed {
+                rotor: ratio.leader,
+            };
+            if parameter == leading {
+                rotor.speed = value * ratio.ratio;
+            }
+        }
     }
 
     /// The model under these parameters; the packed one when nothing that it depends on was changed.

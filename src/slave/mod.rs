@@ -12,8 +12,11 @@
 mod calls;
 mod design;
 mod error;
+mod saved;
 
-use crate::config::Config;
+use serde::{Deserialize, Serialize};
+
+use crate::config::{self, Config};
 use crate::interface::{Causality, Parameter, Quantity};
 use crate::model::Inputs;
 use crate::simulation::Simulation;
@@ -22,6 +25,7 @@ use design::Design;
 
 pub use calls::{Call, LifeCycle};
 pub use error::{Error, Kind};
+pub use saved::SavedState;
 
 /// One instance of an FMU.
 #[derive(Debug, Clone)]
@@ -40,7 +44,7 @@ pub struct Slave {
 }
 
 /// What fmi2SetupExperiment says.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Experiment {
     /// Relative tolerance, when the master gives one.
     pub tolerance: Option<f64>,
@@ -272,16 +276,8 @@ impl Slave {
     fn write(&mut self, reference: u32, value: f64) -> Result<(), Error> {
         match self.design.variable(reference)?.quantity {
             Quantity::Parameter(parameter) => {
-                *parameter.slot(&mut self.config) = value;
+                self.design.write(&mut self.config, parameter, value);
                 self.tolerance_set |= parameter == Parameter::Tolerance;
-                for (rotor, ratio) in self.config.rotors.iter_mut().zip(&self.design.ratios) {
-                    if (Parameter::MeanSpeed {
-                        rotor: ratio.leader,
-                    }) == parameter
-                    {
-                        rotor.speed = value * ratio.ratio;
-                    }
-                }
                 self.simulation = None;
             }
             quantity => {
@@ -314,17 +310,23 @@ impl Slave {
             start: 0.0,
             stop: None,
         });
-        let mut config = self.config.clone();
-        if let (Some(tolerance), false) = (experiment.tolerance, self.tolerance_set) {
-            config.simulation.tolerance = tolerance.clamp(1e-12, 0.1);
-        }
-        let model = self.design.assemble(&config)?;
-        Simulation::start(
-            model,
-            self.inputs.clone(),
-            &config.simulation,
-            experiment.start,
-        )
-        .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
+        let settings = settings(&self.config, Some(experiment), self.tolerance_set);
+        let model = self.design.assemble(&self.config)?;
+        Simulation::start(model, self.inputs.clone(), &settings, experiment.start)
+            .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
     }
+}
+
+/// The settings of a run: the master's tolerance goes before the file's, unless it set the parameter itself.
+fn settings(
+    config: &Config,
+    experiment: Option<Experiment>,
+    tolerance_set: bool,
+) -> config::Simulation {
+    let mut settings = config.simulation.clone();
+    let asked = experiment.and_then(|experiment| experiment.tolerance);
+    if let (Some(tolerance), false) = (asked, tolerance_set) {
+        settings.tolerance = tolerance.clamp(1e-12, 0.1);
+    }
+    settings
 }

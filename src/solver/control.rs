@@ -1,7 +1,9 @@
 //! What the control of the step length remembers from step to step.
 
+use serde::{Deserialize, Serialize};
+
 /// Memory of the step control; one entry per monitor in each list.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Control {
     /// Step that the last error estimates ask for [s]; 0 before the first step.
     pub(super) wanted_step: f64,
@@ -22,6 +24,18 @@ impl Control {
             squares: vec![0.0; monitors],
             peaks: vec![[0.0; 2]; monitors],
         }
+    }
+
+    /// Lengths of the lists.
+    pub(super) fn lengths(&self) -> [usize; 2] {
+        [self.squares.len(), self.peaks.len()]
+    }
+
+    /// Whether all numbers are finite and none is negative.
+    pub(super) fn is_valid(&self) -> bool {
+        let numbers = self.squares.iter().chain(self.peaks.iter().flatten());
+        let mut numbers = numbers.chain([&self.wanted_step, &self.elapsed]);
+        numbers.all(|number| number.is_finite() && *number >= 0.0)
     }
 
     /// Becomes the same as another one of the same system, without allocation.

@@ -20,6 +20,7 @@ mod newmark;
 mod row;
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 pub use error::StepError;
 pub use exponential::Exponential;
@@ -169,7 +170,7 @@ pub struct Spring {
 }
 
 /// Everything that moves: what a snapshot has to keep so that the continuation is the same to the bit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Time [s].
     pub time: f64,
@@ -185,7 +186,7 @@ pub struct State {
 }
 
 /// One numerical solution.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Track {
     position: Vec<f64>,
     velocity: Vec<f64>,
@@ -242,6 +243,32 @@ impl System {
 }
 
 impl State {
+    /// Whether another state has the same shape and consists of finite numbers.
+    pub fn is_like(&self, other: &State) -> bool {
+        let lengths = |state: &State| {
+            let tracks = state.tracks.iter();
+            let own = [state.position.len(), state.velocity.len(), state.slow.len()];
+            let control = state.control.lengths();
+            tracks
+                .flat_map(|track| [track.position.len(), track.velocity.len()])
+                .chain(own)
+                .chain(control)
+                .collect::<Vec<usize>>()
+        };
+        let tracks = self
+            .tracks
+            .iter()
+            .flat_map(|track| track.position.iter().chain(&track.velocity));
+        let numbers = tracks
+            .chain(&self.position)
+            .chain(&self.velocity)
+            .chain(&self.slow);
+        lengths(self) == lengths(other)
+            && self.time.is_finite()
+            && numbers.copied().all(f64::is_finite)
+            && self.control.is_valid()
+    }
+
     /// Becomes the same as another state of the same system, without allocation.
     pub fn copy_from(&mut self, other: &State) {
         self.time = other.time;

@@ -3,5 +3,6 @@
 
 pub mod capabilities;
 pub mod common;
+pub mod state;
 pub mod stepping;
 pub mod variables;

@@ -63,8 +63,7 @@ fn expected(case: &Case) -> Vec<f64> {
     let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
     let torques = torques.map(|torque| torque.value).collect();
     let inputs = Inputs::at_rest(torques, model.bearings().count());
-    let (start, tolerance) = (config.simulation.start, config.simulation.tolerance);
-    let mut simulation = Simulation::start(model, inputs, start, 0.0, tolerance)
+    let mut simulation = Simulation::start(model, inputs, &config.simulation, 0.0)
         .expect("the example has an equilibrium");
     let mut forces = Vec::new();
     for index in 0..STEPS {

@@ -1,0 +1,117 @@
+//! A saved state continues to the bit: in the same instance, in another one, and through its bytes.
+
+#![allow(missing_docs)]
+
+mod support;
+
+use geartrain::slave::{Experiment, SavedState, Slave};
+use geartrain::train::load;
+use support::{case_four, three_stage};
+
+/// Contact losses, back flanks, changing speed: every kind of memory a solution can have.
+fn free_and_rattling() -> String {
+    three_stage()
+        .replace("speed = \"prescribed\"", "speed = \"free\"")
+        .replace(
+            "contact = \"bilateral\"",
+            "contact = \"unilateral\"\nbacklash = 2e-5",
+        )
+        .replace("slope = 0.5", "slope = 3.0")
+}
+
+fn models() -> [String; 4] {
+    let newmark = |text: String| text.replace("[simulation]", "[simulation]\nsolver = \"newmark\"");
+    [
+        case_four(),
+        free_and_rattling(),
+        newmark(case_four()),
+        newmark(free_and_rattling()),
+    ]
+}
+
+fn born(text: &str) -> Slave {
+    let loaded = load(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
+    Slave::new(&loaded.config.to_bytes()).expect("a packed model is valid")
+}
+
+fn running(text: &str) -> Slave {
+    let mut slave = born(text);
+    let experiment = Experiment {
+        tolerance: Some(1e-4),
+        start: 0.0,
+        stop: None,
+    };
+    slave.setup_experiment(experiment).unwrap();
+    slave.enter_initialization().unwrap();
+    slave.exit_initialization().unwrap();
+    slave
+}
+
+/// The bits of all variables after each of the next steps.
+fn steps(slave: &mut Slave, from: u32, count: u32) -> Vec<u64> {
+    let references: Vec<u32> = (0..200).collect();
+    let mut values = vec![0.0; references.len()];
+    let mut bits = Vec::new();
+    for index in from..from + count {
+        slave.do_step(2e-5 * f64::from(index), 2e-5).unwrap();
+        slave.get_real(&references, &mut values).unwrap();
+        bits.extend(values.iter().map(|value| value.to_bits()));
+    }
+    bits
+}
+
+#[test]
+fn a_saved_state_continues_to_the_bit_wherever_it_is_restored() {
+    for text in models() {
+        let mut slave = running(&text);
+        steps(&mut slave, 0, 40);
+        let saved = slave.save();
+        let expected = steps(&mut slave, 40, 30);
+        let end = slave.save();
+        slave.restore(&saved).unwrap();
+        assert_eq!(steps(&mut slave, 40, 30), expected, "in the same instance");
+        assert_eq!(slave.save(), end);
+
+        let bytes = saved.to_bytes();
+        let mut other = born(&text);
+        other
+            .restore(&SavedState::from_bytes(&bytes).unwrap())
+            .unwrap();
+        assert_eq!(steps(&mut other, 40, 30), expected, "in another instance");
+        assert_eq!(other.save(), end);
+    }
+}
+
+#[test]
+fn parameters_inputs_and_the_state_of_life_come_back() {
+    let text = case_four();
+    let mut slave = born(&text);
+    let fresh = slave.save();
+    let mut changed = running(&text);
+    steps(&mut changed, 0, 5);
+    changed.terminate();
+    let terminated = changed.save();
+    changed.restore(&fresh).unwrap();
+    assert_eq!(changed.save(), fresh);
+    // A fresh instance can be initialized and gives what a new one gives.
+    let experiment = Experiment {
+        tolerance: Some(1e-4),
+        start: 0.0,
+        stop: None,
+    };
+    changed.setup_experiment(experiment).unwrap();
+    changed.enter_initialization().unwrap();
+    changed.exit_initialization().unwrap();
+    assert_eq!(steps(&mut changed, 0, 5), steps(&mut running(&text), 0, 5));
+    changed.restore(&terminated).unwrap();
+    assert!(changed.permit(geartrain::slave::Call::DoStep).is_err());
+}
+
+#[test]
+fn a_state_of_another_model_changes_nothing() {
+    let (mut slave, mut other) = (running(&case_four()), running(&free_and_rattling()));
+    steps(&mut slave, 0, 3);
+    let before = slave.save();
+    assert!(slave.restore(&other.save()).is_err());
+    assert_eq!(slave.save(), before);
+}

@@ -51,7 +51,7 @@ def train(seed):
         _second_path(draw, model, shafts)
     _power(draw, shafts)
     for shaft in shafts:
-        model["rotor"].append(shaft.table(draw, free))
+        model["rotor"].append(shaft.table(draw, free, basis is None or basis.get("static_shapes")))
     if draw.chance(0.4) or count == 1:
         model["gearbox_vibration"] = dict(amplitude_x=draw.magnitude(5e-7, 4e-6), amplitude_y=draw.magnitude(5e-7, 4e-6),
                                           phase_y=draw.angle(), frequency=draw.number(200.0, 1500.0))
@@ -92,7 +92,7 @@ class Shaft:
     def place(self, fraction):
         return round(fraction * self.length, 4)
 
-    def table(self, draw, free):
+    def table(self, draw, free, whole):
         r = dict(name=self.name, speed=self.speed, lateral_damping_ratio=draw.number(0.003, 0.02, 2),
                  torsional_damping_ratio=draw.number(0.005, 0.02, 2))
         if draw.chance(0.3):
@@ -116,7 +116,7 @@ class Shaft:
                              phase=draw.angle())]
         if draw.chance(0.2):
             support = dict(position=self.place(draw.number(0.3, 0.6, 2)), lateral=draw.magnitude(1e4, 1e6))
-            if not free:
+            if not free and whole:                                         # a few modes of a held shaft cannot turn with the others
                 support["torsional"] = draw.magnitude(1e2, 1e4)
             r["basis_support"] = [support]
         if draw.chance(0.4):

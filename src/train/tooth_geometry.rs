@@ -10,7 +10,7 @@ use crate::mesh::{FITTED_BODIES, PathOfContact, SpurGear, SpurPair, Tooth};
 
 /// Thinner tips [modules] break, and their stiffness changes too steeply to be represented.
 const THINNEST_TIP: f64 = 0.1;
-/// Part of the teeth without any undercut that suffices: 14 of 17 at 20 degrees, the practical limit of DIN 3960.
+/// Part of the teeth without any undercut that suffices: 14 of 17 at 20 degrees, the usual practical limit.
 const UNDERCUT_TEETH: f64 = 0.8;
 /// Sum of profile shifts [modules] by which rounding of the pressure angle may exceed that of a mesh without backlash.
 const SHIFT_ROUNDING: f64 = 0.005;

@@ -3,6 +3,7 @@
 #![allow(dead_code, missing_docs)] // each test file uses its own part
 #![allow(clippy::disallowed_methods)] // tests compare with tolerances: the platform's sin will do
 
+pub mod orbits;
 pub mod parts;
 
 use geartrain::config::{self, Start};

@@ -24,7 +24,8 @@ use super::{SpurGear, Tooth};
 /// Panels of the Gauss rule along the flank: 1e-9 of the compliance for the thinnest tips (`quadrature_has_converged`).
 const PANELS: usize = 24;
 
-/// Coefficients A to F of the polynomials L*, M*, P*, Q* of the gear body. Sainsot, Velex, Duverger 2004, Table 1.
+/// Coefficients A to F of the polynomials L*, M*, P*, Q* of the gear body. Sainsot, Velex, Duverger 2004, as all public programs
+/// that were looked at have them (ROSS, `ross/multi_rotor/gear_element.py`, and nine others); the paper was not at hand.
 const BODY: [[f64; 6]; 4] = [
     [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],
     [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086],
@@ -34,10 +35,10 @@ const BODY: [[f64; 6]; 4] = [
     ],
 ];
 
-/// Half root angles theta_f [rad] for which the polynomials were fitted.
+/// Half root angles theta_f [rad] for which the polynomials are held to be fitted.
 const FITTED_ANGLES: [f64; 2] = [0.01, 0.12];
 
-/// Ratios of root radius to bore radius for which the polynomials of the gear body were fitted.
+/// Ratios of root radius to bore radius for which the polynomials of the gear body are held to be fitted.
 pub const FITTED_BODIES: [f64; 2] = [1.4, 7.0];
 
 /// A force on a cantilever.
@@ -176,17 +177,16 @@ mod tests {
     }
 
     #[test]
-    fn body_polynomials_keep_to_the_published_ranges() {
-        // Sainsot, Velex, Duverger 2004, Table 1: least and greatest value of each. 3 %: the polynomials are a fit;
+    fn body_polynomials_keep_to_the_ranges_of_the_fit() {
+        // Least and greatest value of each, beyond which ROSS (`gear_element.py`) warns. 3 %: the polynomials are a fit;
         // at the corners (30 teeth on a thin rim, 300 teeth) they stray further.
-        let published = [[6.82, 6.94], [1.08, 3.29], [2.56, 13.47], [0.141, 0.62]];
+        let ranges = [[6.82, 6.94], [1.08, 3.29], [2.56, 13.47], [0.141, 0.62]];
         let mut greatest = [0.0_f64; 4];
         for i in 0..=100 {
             for j in 0..=100 {
                 let (theta, h) = (0.05 + 0.0007 * f64::from(i), 2.0 + 0.05 * f64::from(j));
                 let values = body_polynomials(theta, h);
-                for (([low, high], value), greatest) in
-                    published.iter().zip(values).zip(&mut greatest)
+                for (([low, high], value), greatest) in ranges.iter().zip(values).zip(&mut greatest)
                 {
                     assert!(
                         (0.97 * low..1.03 * high).contains(&value),

@@ -9,7 +9,7 @@
 //!   C_B = (1 + 0.5 (1.2 - h_fP/m)) (1 - 0.02 (20 - alpha in degrees)), the mean of both gears
 //! ```
 //!
-//! Gear 1 is the one with fewer teeth. The standard fits these to steel gears with x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2,
+//! The coefficients are those of public programs; the standard was not at hand. Gear 1 is the one with fewer teeth. The standard fits these to steel gears with x_1 >= x_2, -0.5 <= x_1 + x_2 <= 2,
 //! eps >= 1.2 and a load of more than 100 N per mm of face width; nothing of this is checked here.
 
 use super::{SpurGear, SpurPair};

@@ -23,6 +23,7 @@
 //! Mech. Trans. Autom. Des. 109 (1987); Tian, thesis, University of Alberta (2004); Wu, Zuo, Parey, J. Sound Vib. 317 (2008);
 //! Liang, Zuo, Pandey, Mech. Mach. Theory 76 (2014) for root circles inside the base circle; Sainsot, Velex, Duverger,
 //! J. Mech. Des. 126 (2004) for the gear body. ISO 6336-1 for comparison (`iso6336.rs`).
+//! These name where the method comes from; the formulas are derived and tested here, contact and body also against a public program (ROSS).
 //!
 //! Knows two gears; knows no shafts, no time and no model file.
 

@@ -159,9 +159,9 @@ def test_torque_reversal(packed, tmp_path, name, drive, values):
     """The torque of the drive turns round in the middle of the run: the teeth change flanks."""
     stop, count = 0.01, 500
     times = np.arange(count + 1) * stop / count
-    torque = {drive: lambda t: values[t >= stop / 2]}
+    torque = {drive: lambda t: values[int(t >= stop / 2)]}
     exact = reference.simulate(MODELS[name], stop, times, rtol=1e-9, torques=torque, knots=[stop / 2])
-    keys = [key for key in exact if is_output(key)]
+    keys = list(filter(is_output, exact))
     rows = driven(packed(name), tmp_path, keys, times, f"{drive}.torque", torque[drive])
     errors = alternating_errors(exact, dict(zip(keys, np.array(rows).T)))
     worst = max(errors, key=errors.get)

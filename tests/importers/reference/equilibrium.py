@@ -1,7 +1,9 @@
 """The static start (design 8.5).
 
-Mean mesh stiffness, no transmission error, bow, unbalance or vibration.  Torques that do not balance accelerate the
-connected train as a rigid body; the rigid part of the solution itself is zero in the mean (weighted with the inertia).
+Mean mesh stiffness, no transmission error, bow, unbalance or vibration; the torques are those "set at the end of
+initialization", the inputs: what a load line takes at the initial speed of a free spin acts from then on.  Torques that
+do not balance accelerate the connected train as a rigid body; the rigid part of the solution itself is zero in the mean
+(weighted with the inertia).
 The potential of bearings and contacts is convex, so damped Newton steps
 
     (J + mu M) dq = -g(q),     mu -> 0 with |g|
@@ -18,11 +20,6 @@ def equilibrium(s, base_motion, torques):
     for name, fun in torques.items():
         row, value = s.torque_rows[name]
         load += (fun(0.0) - value) * row
-    if s.free:                                                             # load lines at the initial speed
-        for r in s.rotors.values():
-            for d in r.data["torque"]:
-                row = s.rows(r.name, d["position"])[2]
-                load -= d["slope"] * (row @ s.rigid @ s.speed0) * row
     base = {name: np.array(base_motion[name](0.0))[:2] if name in base_motion else np.zeros(2) for name in s.bearings}
     for name, b in s.bearings.items():
         load += b.at_speed[0] @ base[name] @ b.rows

@@ -64,6 +64,8 @@ pub(super) enum Outcome {
     Accepted {
         /// Length the next step should have relative to this one.
         ratio: f64,
+        /// Whether the piece of the landing law, if there is one, has come to its end.
+        landed: bool,
     },
     /// The state is unchanged: the step was too long.
     Rejected {
@@ -204,8 +206,11 @@ impl March {
             self.check_progress(state.time, span.step)?;
             self.tried += 1;
             match method.try_step(task, state, span, &self.pieces, landing)? {
-                Outcome::Accepted { ratio } => {
+                Outcome::Accepted { ratio, landed } => {
                     if let Some(law) = landing {
+                        if !landed {
+                            return Ok(true); // the next step will find it
+                        }
                         self.events += 1;
                         let (piece, at) = (&mut self.pieces[law], method.instant(state));
                         *piece = task.forcing.next_piece(law, *piece, at);

@@ -5,6 +5,7 @@
 
 pub mod orbits;
 pub mod parts;
+pub mod run;
 
 use geartrain::config::{self, Start};
 use geartrain::model::{Inputs, ModalModel};

@@ -1,84 +1,226 @@
 //! Where the motion ends the piece of a law inside a step.
+//!
+//! Where forces are small the step may be long, longer than vibrations of the blocks, which it integrates exactly; a contact
+//! that such a vibration closes must not be missed. Between neighbouring points the couplings are interpolated by cubics.
+//! What a cubic over two of these intervals says of the point between them tells how far that can be trusted: laws that are
+//! clear of their ends by more than that go on, others ask for a step that shows them clearly.
 
 use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece};
 use super::kernel::Kernel;
-use super::polynomials::{IN_TIME, PLACES};
+use super::polynomials::{IN_TIME, PLACES, POINTS};
 use super::sight::{Sight, instant};
 
-/// Accuracy of the time of an event, in parts of the way between two points.
+/// Accuracy of the time of an event, in parts of the way between two places.
 const ROOT_ACCURACY: f64 = 1e-12;
+/// A margin within this part of its range over the step is zero where the step was to end with it.
+const LANDED: f64 = 1e-7;
+/// Margins [m, pitches] cannot be told from zero below this: rounding of large rotation angles.
+const SMALLEST_MARGIN: f64 = 1e-12;
+/// Bounds of the part of the range of a margin that interpolation may miss: the root of the tolerance, because energies go
+/// with squares of depths.
+const CLEAR: (f64, f64) = (1e-5, 1e-2);
+/// Places between two points at which the interpolated motion is looked at.
+const BETWEEN: usize = 4;
+
+/// What a step shows of the pieces.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Sighting {
+    /// All laws stay in their pieces. Whether that of the landing law ends with the step.
+    Clear { landed: bool },
+    /// The motion ends the piece of a law.
+    Ends { law: usize, time: f64 },
+    /// The step is too long to say; the length it should have relative to this one.
+    Unclear { ratio: f64 },
+}
+
+/// The margins of one law at the start of a step and at its points, in the order of time.
+struct Margins([f64; POINTS + 1]);
+
+impl Margins {
+    fn least(&self) -> f64 {
+        let points = self.0[1..].iter();
+        // f64::min would drop a NaN.
+        points.fold(
+            f64::INFINITY,
+            |least, &one| if one >= least { least } else { one },
+        )
+    }
+
+    fn range(&self) -> f64 {
+        let most = self.0.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        most - self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    fn last(&self) -> f64 {
+        self.0[POINTS]
+    }
+}
 
 impl Kernel {
-    /// The law whose piece the motion ends first, and when. `landing` is one whose piece ends with the step anyway.
-    pub(super) fn interruption<F: Forcing>(
+    /// The law whose piece the motion ends first, and when. `landing` is one whose piece should end with the step.
+    pub(super) fn sight_events<F: Forcing>(
         &mut self,
         task: Task<'_, F>,
         slow: &[f64],
         span: Span,
         pieces: &[Piece],
         landing: Option<usize>,
-    ) -> Option<(usize, f64)> {
+    ) -> Sighting {
+        let clear = task.tolerance.sqrt().clamp(CLEAR.0, CLEAR.1);
         let mut earliest: Option<(usize, f64)> = None;
+        let mut landed = true;
         for (law, &piece) in pieces.iter().enumerate() {
-            if Some(law) == landing {
+            let view = View {
+                task,
+                slow,
+                span,
+                law,
+                piece,
+            };
+            let Some(margins) = view.margins(&self.sight) else {
+                continue;
+            };
+            let missed = view.missed(&mut self.sight, &margins);
+            if margins.least() > missed {
+                landed &= Some(law) != landing;
                 continue;
             }
-            let mut previous = None;
-            for point in IN_TIME {
-                let at = instant(&self.sight.points[point], span.at(PLACES[point]), slow);
-                let margin = task.forcing.margin(law, piece, at);
-                if margin < 0.0 || margin.is_nan() {
-                    let time = self.root(task, slow, span, (law, piece), (previous, point));
-                    if earliest.is_none_or(|(_, other)| time < other) {
-                        earliest = Some((law, time));
-                    }
-                    break;
+            let range = margins.range();
+            let allowed = (clear * range).max(SMALLEST_MARGIN);
+            if missed > allowed {
+                // The error of cubics is of fourth order.
+                let ratio = 0.8 * (allowed / missed).sqrt().sqrt();
+                return Sighting::Unclear {
+                    ratio: ratio.clamp(0.2, 0.8),
+                };
+            }
+            let mut slack = 0.0;
+            if Some(law) == landing {
+                slack = (LANDED * range).max(0.1 * SMALLEST_MARGIN);
+                if margins.0[0] <= slack {
+                    continue; // the piece was at its end from the start
                 }
-                previous = Some(point);
+            }
+            match view.end(&mut self.sight, slack) {
+                Some(time) if earliest.is_none_or(|(_, other)| time < other) => {
+                    earliest = Some((law, time));
+                }
+                Some(_) => {}
+                None => landed &= Some(law) != landing || margins.last() <= slack,
             }
         }
-        earliest
+        match earliest {
+            Some((law, time)) => Sighting::Ends { law, time },
+            None => Sighting::Clear { landed },
+        }
+    }
+}
+
+/// One law in one step.
+struct View<'a, F> {
+    task: Task<'a, F>,
+    slow: &'a [f64],
+    span: Span,
+    law: usize,
+    piece: Piece,
+}
+
+impl<F: Forcing> View<'_, F> {
+    /// When place number `index` in the order of time comes, as part of the step: 0 is the start.
+    fn part(index: usize) -> f64 {
+        if index == 0 {
+            0.0
+        } else {
+            PLACES[IN_TIME[index - 1]]
+        }
     }
 
-    /// When the margin of a law becomes negative between two points (the start of the step where there is no previous
-    /// one), by bisection on cubic interpolants.
-    fn root<F: Forcing>(
-        &mut self,
-        task: Task<'_, F>,
-        slow: &[f64],
-        span: Span,
-        (law, piece): (usize, Piece),
-        (previous, point): (Option<usize>, usize),
-    ) -> f64 {
-        let Sight {
-            start,
-            points,
-            trial,
-            ..
-        } = &mut self.sight;
-        let right = &points[point];
-        let (left, from) = match previous {
-            Some(previous) => (&points[previous], PLACES[previous]),
-            None => (&*start, 0.0),
-        };
-        let width = (PLACES[point] - from) * span.step;
-        let (mut low, mut high) = (0.0, 1.0);
-        while high - low > ROOT_ACCURACY {
-            let middle = 0.5 * (low + high);
-            for coupling in 0..left[0].len() {
-                let end = |seen: &[Vec<f64>; 2]| [seen[0][coupling], seen[1][coupling] * width];
-                let (value, slope) = hermite(end(left), end(right), middle);
-                (trial[0][coupling], trial[1][coupling]) = (value, slope / width);
+    fn seen(sight: &Sight, index: usize) -> &[Vec<f64>; 2] {
+        if index == 0 {
+            &sight.start
+        } else {
+            &sight.points[IN_TIME[index - 1]]
+        }
+    }
+
+    fn margin(&self, seen: &[Vec<f64>; 2], part: f64) -> f64 {
+        let at = instant(seen, self.span.at(part), self.slow);
+        self.task.forcing.margin(self.law, self.piece, at)
+    }
+
+    /// `None` where only time ends the piece.
+    fn margins(&self, sight: &Sight) -> Option<Margins> {
+        let margin = |index| self.margin(Self::seen(sight, index), Self::part(index));
+        let first = margin(0);
+        (first != f64::INFINITY).then(|| {
+            Margins(core::array::from_fn(|index| {
+                if index == 0 { first } else { margin(index) }
+            }))
+        })
+    }
+
+    /// The margin at a part of the step, interpolated between two places.
+    fn interpolated(&self, sight: &mut Sight, between: [usize; 2], part: f64) -> f64 {
+        let [from, to] = between.map(Self::part);
+        let width = (to - from) * self.span.step;
+        let s = (part - from) / (to - from);
+        let mut trial = core::mem::take(&mut sight.trial);
+        let [left, right] = between.map(|index| Self::seen(sight, index));
+        for coupling in 0..left[0].len() {
+            let end = |seen: &[Vec<f64>; 2]| [seen[0][coupling], seen[1][coupling] * width];
+            let (value, slope) = hermite(end(left), end(right), s);
+            (trial[0][coupling], trial[1][coupling]) = (value, slope / width);
+        }
+        let margin = self.margin(&trial, part);
+        sight.trial = trial;
+        margin
+    }
+
+    /// The largest error of interpolation over two neighbouring intervals.
+    fn missed(&self, sight: &mut Sight, margins: &Margins) -> f64 {
+        let mut missed = 0.0_f64;
+        for index in 1..POINTS {
+            let found = self.interpolated(sight, [index - 1, index + 1], Self::part(index));
+            missed = missed.max((found - margins.0[index]).abs());
+        }
+        missed
+    }
+
+    /// When the margin falls below -`slack`.
+    fn end(&self, sight: &mut Sight, slack: f64) -> Option<f64> {
+        for index in 0..POINTS {
+            let between = [index, index + 1];
+            let [from, to] = between.map(Self::part);
+            let place = |step: usize| from + (to - from) * step as f64 / BETWEEN as f64;
+            for step in 1..=BETWEEN {
+                let margin = self.interpolated(sight, between, place(step));
+                // Written so that a NaN ends the piece.
+                if margin < -slack || margin.is_nan() {
+                    let root = self.root(sight, between, [place(step - 1), place(step)]);
+                    return Some(self.span.start + root * self.span.step);
+                }
             }
-            let time = span.start + from * span.step + middle * width;
-            if task.forcing.margin(law, piece, instant(trial, time, slow)) >= 0.0 {
+        }
+        None
+    }
+
+    /// Where the margin becomes negative between two parts of the step, by bisection.
+    fn root(&self, sight: &mut Sight, between: [usize; 2], [low, high]: [f64; 2]) -> f64 {
+        let (mut low, mut high) = (low, high);
+        let accuracy = ROOT_ACCURACY * (high - low);
+        while high - low > accuracy {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.interpolated(sight, between, middle) >= 0.0 {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        span.start + from * span.step + high * width
+        high
     }
 }
 

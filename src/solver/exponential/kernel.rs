@@ -5,6 +5,7 @@ use nalgebra::Complex;
 use super::super::march::{Method, Outcome, Span, Task, canonical};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::{Coefficients, Scratch};
+use super::events::Sighting;
 use super::exchange::Exchange;
 use super::part::{Part, PartMotion, take_apart};
 use super::polynomials::{END, NODES, PLACES, POINTS};
@@ -276,9 +277,14 @@ impl Method for Kernel {
             }
             return Err(StepError::NotFinite { time: span.start });
         }
-        if let Some((law, time)) = self.interruption(task, &state.slow, span, pieces, landing) {
-            return Ok(Outcome::Interrupted { law, time });
-        }
+        let landed = match self.sight_events(task, &state.slow, span, pieces, landing) {
+            Sighting::Ends { law, time } => return Ok(Outcome::Interrupted { law, time }),
+            Sighting::Unclear { ratio } => {
+                self.counts.rejected += 1;
+                return Ok(Outcome::Rejected { ratio });
+            }
+            Sighting::Clear { landed } => landed,
+        };
         let error = self.error(task, state, span, pieces, index);
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: span.end });
@@ -295,6 +301,6 @@ impl Method for Kernel {
         } else {
             ratio.max(1.0)
         };
-        Ok(Outcome::Accepted { ratio })
+        Ok(Outcome::Accepted { ratio, landed })
     }
 }

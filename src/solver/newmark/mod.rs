@@ -300,6 +300,7 @@ impl Method for Pair {
         core::mem::swap(&mut state.control, &mut self.next_control);
         Ok(Outcome::Accepted {
             ratio: if error > 1.0 { ratio.min(0.99) } else { ratio },
+            landed: true,
         })
     }
 }

@@ -184,7 +184,7 @@ impl ModalModel {
         }
         system.slow = spins.iter().map(|spin| rotors[spin.rotor].speed).collect();
         harmonics.extend(vibration.harmonic(&rotors, system.size));
-        system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial);
+        system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
         Ok(ModalModel {
             system,
             rotors,

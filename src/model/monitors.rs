@@ -1,6 +1,7 @@
 //! What the solver's error control watches.
 
 use super::radial::{RadialBearing, secant};
+use super::spin::Spin;
 use super::{Mesh, Rotor};
 use crate::solver::{Monitor, Row, System};
 
@@ -8,6 +9,8 @@ use crate::solver::{Monitor, Row, System};
 const SMALLEST_DEFLECTION: f64 = 1e-12;
 /// Depth of contact [m] at which a bearing's force is judged as a spring.
 const TYPICAL_DEPTH: f64 = 1e-5;
+/// Modal coordinates below this [m sqrt(kg)] count as zero.
+const SMALLEST_MOTION: f64 = 1e-12;
 
 /// The tolerance holds for the mesh forces; on rotors without a mesh for the motion at bearings and of
 /// everything that turns.
@@ -16,6 +19,7 @@ pub(super) fn monitors(
     rotors: &[Rotor],
     meshes: &[Mesh],
     radial: &[RadialBearing],
+    spins: &[Spin],
 ) -> Vec<Monitor> {
     let mut monitors: Vec<Monitor> = meshes.iter().map(|mesh| of_mesh(system, mesh)).collect();
     let meshed = |index: usize| {
@@ -30,6 +34,9 @@ pub(super) fn monitors(
         if meshed(index) {
             continue;
         }
+        // Unbalance, bow and gyroscopic moment of a rotor that turns freely: its lateral coordinates follow them.
+        let spin = spins.iter().find(|spin| spin.rotor == index);
+        let motion = spin.map_or(0..0, |spin| spin.first..spin.first + 2 * spin.n);
         let own = radial
             .iter()
             .filter(|bearing| inputs.contains(&bearing.input));
@@ -49,11 +56,12 @@ pub(super) fn monitors(
                 .chain(&rotor.torques)
                 .map(|row| Monitor {
                     couplings: 0..0,
+                    motion: motion.clone(),
                     row: row.clone(),
                     damping_ratio: lightest_damping(system, row, 0.0, 0.0, 0.0),
                     frequency: 0.0,
                     rate_weight: 0.0,
-                    floor: 0.0,
+                    floor: SMALLEST_MOTION,
                 }),
         );
     }
@@ -66,6 +74,7 @@ fn of_mesh(system: &System, mesh: &Mesh) -> Monitor {
     let flanks = if mesh.backlash.is_some() { 2 } else { 1 };
     Monitor {
         couplings: mesh.first_coupling..mesh.first_coupling + flanks,
+        motion: 0..0,
         row: mesh.row.clone(),
         damping_ratio: lightest_damping(system, &mesh.row, k, c, 0.25 * own),
         frequency: own.sqrt(),
@@ -80,6 +89,7 @@ fn of_bearing(system: &System, bearing: &RadialBearing) -> Monitor {
     let own = k * row.dot_row(row);
     Monitor {
         couplings: bearing.first_coupling..bearing.first_coupling + 2,
+        motion: 0..0,
         row: row.clone(),
         damping_ratio: lightest_damping(system, row, k, 0.0, 0.25 * own),
         frequency: own.sqrt(),

@@ -52,6 +52,8 @@ pub struct System {
 pub struct Monitor {
     /// The couplings that make up the force; none for a displacement that only the linear part moves.
     pub couplings: core::ops::Range<usize>,
+    /// The couplings whose deflections are to be right where they are what matters, and not a force.
+    pub motion: core::ops::Range<usize>,
     /// The displacement that the force belongs to is `row * q`.
     pub row: Row,
     /// Damping ratio of the most lightly damped fast motion in it: how long an error of phase lasts.

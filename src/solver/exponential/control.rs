@@ -8,7 +8,7 @@
 //!   SAFETY |F(d + e_d, d' + e_v) - F(d, d')| n <= tolerance x RMS of F over the run so far,   n = min(t, 1/(zeta w)) / h
 //! ```
 //!
-//! w is the frequency of the force by itself, zeta the lightest damping ratio in it.
+//! Where a motion is what matters, its own e counts. w is the frequency of the force by itself, zeta the lightest damping ratio in it.
 
 use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, State};
@@ -62,7 +62,7 @@ impl Kernel {
         let elapsed = control.elapsed + span.step;
         let mut worst: f64 = 0.0;
         for (monitor, squares) in task.system.monitors.iter().zip(&control.squares) {
-            if monitor.couplings.is_empty() {
+            if monitor.couplings.is_empty() && monitor.motion.is_empty() {
                 continue; // exact
             }
             let mean = (squares + span.step * sight.mean_square(monitor)) / elapsed;
@@ -70,9 +70,13 @@ impl Kernel {
             let decay = monitor.damping_ratio * monitor.frequency;
             let remembered = (1.0 / decay.max(f64::MIN_POSITIVE)).min(elapsed);
             let steps = (remembered / span.step).max(1.0);
-            for coupling in monitor.couplings.clone() {
-                let change = (sight.present[coupling] - sight.forces[coupling][NODES - 1]).abs();
-                let relative = SAFETY * change * steps / (reference * task.tolerance);
+            let scale = SAFETY * steps / (reference * task.tolerance);
+            let forces = monitor.couplings.clone();
+            let of_force = forces.map(|i| sight.present[i] - sight.forces[i][NODES - 1]);
+            let motion = monitor.motion.clone();
+            let of_motion = motion.map(|i| sight.trial[0][i] - sight.points[END][0][i]);
+            for change in of_force.chain(of_motion) {
+                let relative = scale * change.abs();
                 // f64::max would drop a NaN.
                 worst = if relative <= worst { worst } else { relative };
             }

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 
 use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
-use super::polynomials::{NODES, POINTS};
+use super::polynomials::{END, NODES, POINTS};
 
 /// One entry per coupling in every list; deflections and rates in pairs.
 #[derive(Debug, Clone)]
@@ -53,15 +53,16 @@ impl Sight {
         }
     }
 
-    /// Mean over the step of the squared force of a monitor, by the Lobatto weights 1/12, 5/12, 5/12, 1/12.
+    /// Mean over the step of the square of what a monitor watches, by the Lobatto weights 1/12, 5/12, 5/12, 1/12.
     pub(super) fn mean_square(&self, monitor: &Monitor) -> f64 {
-        let of_coupling = |[first, second, third, last]: &[f64; NODES]| {
+        let mean = |[first, second, third, last]: [f64; NODES]| {
             (first * first + last * last + 5.0 * (second * second + third * third)) / 12.0
         };
-        self.forces[monitor.couplings.clone()]
-            .iter()
-            .map(of_coupling)
-            .sum()
+        let [second, third, last] = [0, 1, END].map(|point| &self.points[point][0]);
+        let of_motion = |i: usize| mean([self.start[0][i], second[i], third[i], last[i]]);
+        let forces = self.forces[monitor.couplings.clone()].iter();
+        forces.map(|&forces| mean(forces)).sum::<f64>()
+            + monitor.motion.clone().map(of_motion).sum::<f64>()
     }
 }
 

@@ -61,6 +61,7 @@ pub(super) fn monitors(
                     damping_ratio: lightest_damping(system, row, 0.0, 0.0, 0.0),
                     frequency: 0.0,
                     rate_weight: 0.0,
+                    stiffness: 0.0,
                     floor: SMALLEST_MOTION,
                 }),
         );
@@ -79,6 +80,7 @@ fn of_mesh(system: &System, mesh: &Mesh) -> Monitor {
         damping_ratio: lightest_damping(system, &mesh.row, k, c, 0.25 * own),
         frequency: own.sqrt(),
         rate_weight: c / k,
+        stiffness: if mesh.backlash.is_some() { k } else { 0.0 },
         floor: k * SMALLEST_DEFLECTION,
     }
 }
@@ -94,6 +96,7 @@ fn of_bearing(system: &System, bearing: &RadialBearing) -> Monitor {
         damping_ratio: lightest_damping(system, row, k, 0.0, 0.25 * own),
         frequency: own.sqrt(),
         rate_weight: 0.0,
+        stiffness: k,
         floor: k * SMALLEST_DEFLECTION,
     }
 }

@@ -62,6 +62,9 @@ pub struct Monitor {
     pub frequency: f64,
     /// Damping per stiffness of the force [s].
     pub rate_weight: f64,
+    /// What an error of deflection counts, in force per deflection, where the force at the moment may hide it: that of teeth
+    /// in flight or of a contact just opening. 0 for forces that show it always.
+    pub stiffness: f64,
     /// Forces below this count as zero.
     pub floor: f64,
 }

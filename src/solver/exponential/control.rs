@@ -8,7 +8,8 @@
 //!   SAFETY |F(d + e_d, d' + e_v) - F(d, d')| n <= tolerance x RMS of F over the run so far,   n = min(t, 1/(zeta w)) / h
 //! ```
 //!
-//! Where a motion is what matters, its own e counts. w is the frequency of the force by itself, zeta the lightest damping ratio in it.
+//! Where a motion is what matters, its own e counts; where a force can hide e, because teeth are in flight or a contact is
+//! just opening, e counts with a typical stiffness. w is the frequency of the force by itself, zeta the lightest damping ratio in it.
 
 use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, State};
@@ -71,10 +72,19 @@ impl Kernel {
             let remembered = (1.0 / decay.max(f64::MIN_POSITIVE)).min(elapsed);
             let steps = (remembered / span.step).max(1.0);
             let scale = SAFETY * steps / (reference * task.tolerance);
-            let forces = monitor.couplings.clone();
-            let of_force = forces.map(|i| sight.present[i] - sight.forces[i][NODES - 1]);
-            let motion = monitor.motion.clone();
-            let of_motion = motion.map(|i| sight.trial[0][i] - sight.points[END][0][i]);
+            let deflection = |i: usize| sight.trial[0][i] - sight.points[END][0][i];
+            let force = |i: usize| {
+                let change = sight.present[i] - sight.forces[i][NODES - 1];
+                let hidden = monitor.stiffness * deflection(i);
+                // Written so that a NaN stays one.
+                if hidden.abs() > change.abs() {
+                    hidden
+                } else {
+                    change
+                }
+            };
+            let of_force = monitor.couplings.clone().map(force);
+            let of_motion = monitor.motion.clone().map(deflection);
             for change in of_force.chain(of_motion) {
                 let relative = scale * change.abs();
                 // f64::max would drop a NaN.

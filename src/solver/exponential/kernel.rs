@@ -181,8 +181,8 @@ impl Kernel {
                 for (forces, &present) in sight.forces.iter_mut().zip(&sight.present) {
                     let force = &mut forces[point + 1];
                     let size = present.abs().max(force.abs()).max(least);
-                    // Written so that a NaN is not settled.
-                    settled &= (present - *force).abs() <= accuracy * size;
+                    // Written so that neither NaN nor infinity is settled.
+                    settled &= (present - *force).abs() <= accuracy * size && size < f64::INFINITY;
                     *force = present;
                 }
             }

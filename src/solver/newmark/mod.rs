@@ -37,6 +37,9 @@ use super::{
 use control::{control_error, differentiate};
 use kernel::{Kernel, Work, accept};
 
+/// Part of a step that is tried when the forces of the whole one are not found.
+const SHORTER: f64 = 0.4;
+
 /// The integrator with its workspace. It holds nothing that influences a result: everything that does
 /// is in the [`State`].
 #[derive(Debug, Clone)]
@@ -264,7 +267,15 @@ impl Method for Pair {
         landing: Option<usize>,
     ) -> Result<Outcome, StepError> {
         copy_tracks(&mut self.retry, &state.tracks);
-        let error = self.take_both(task, state, span, pieces)?;
+        let error = match self.take_both(task, state, span, pieces) {
+            // Newton's method does not find the forces of a long step; those of a short one are almost explicit.
+            Err(StepError::Singular { .. }) => {
+                self.counts.rejected += 1;
+                self.take_back(task, state, pieces);
+                return Ok(Outcome::Rejected { ratio: SHORTER });
+            }
+            error => error?,
+        };
         // The estimate grows with h^4; the factor aims a little below the bound.
         let ratio = (0.8 / error.sqrt().sqrt()).clamp(0.2, 1.5);
         if error > 1.5 {

@@ -119,6 +119,16 @@ pub struct RadialForce {
     pub exponent: f64,
 }
 
+impl Planar {
+    /// No coefficient.
+    pub const ZERO: Planar = Planar {
+        xx: 0.0,
+        xy: 0.0,
+        yx: 0.0,
+        yy: 0.0,
+    };
+}
+
 impl RadialForce {
     /// No force.
     pub const NONE: RadialForce = RadialForce {

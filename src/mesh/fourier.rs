@@ -39,6 +39,13 @@ impl FourierSeries {
         })
     }
 
+    /// d2f/dp2 [per period squared].
+    pub(super) fn curvature(&self, phase: f64) -> f64 {
+        self.sum(phase, |order, (c, s), (cosine, sine)| {
+            -TAU * order * TAU * order * (c * cosine + s * sine)
+        })
+    }
+
     /// Whether f is zero everywhere.
     pub(super) fn is_zero(&self) -> bool {
         self.coefficients.iter().all(|&pair| pair == (0.0, 0.0))
@@ -106,6 +113,16 @@ mod tests {
             let difference = (series.value(phase + h) - series.value(phase - h)) / (2.0 * h);
             // h^2 f''' / 6 with f''' < (2 pi 3)^3: 1e-7.
             assert!((series.slope(phase) - difference).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_curvature_is_the_derivative_of_the_slope() {
+        let (series, h) = (series(), 1e-5);
+        for phase in [0.0, 0.2, 0.55, 0.99] {
+            let difference = (series.slope(phase + h) - series.slope(phase - h)) / (2.0 * h);
+            // h^2 f'''' / 6 with f'''' < (2 pi 3)^4: 2e-6.
+            assert!((series.curvature(phase) - difference).abs() < 1e-5);
         }
     }
 

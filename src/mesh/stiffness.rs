@@ -181,6 +181,23 @@ impl StiffnessLaw {
         }
     }
 
+    /// dk/dphase [N/m per pitch] at a phase in its cycle, continued smoothly from the given piece.
+    pub fn slope(&self, cycle: f64, piece: usize) -> f64 {
+        match self.shape {
+            Shape::Constant { .. } | Shape::Rectangular { .. } => 0.0,
+            Shape::Fourier { mean, ref series } => mean * series.slope(cycle),
+            Shape::Table(ref table) => table.slope(piece),
+            Shape::ToothPair(ref law) => self
+                .engaged(law.contact_ratio, cycle, piece)
+                .map(|x| law.one_pair_slope(x))
+                .sum(),
+            Shape::ToothGeometry(ref law) => self
+                .engaged(law.contact_ratio(), cycle, piece)
+                .map(|x| law.slope(x))
+                .sum(),
+        }
+    }
+
     /// Where in their contact [pitches] the pairs are that a piece engages.
     fn engaged(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
         // The number of pairs is that of the piece: rounding at its ends cannot change it.
@@ -280,6 +297,25 @@ mod tests {
                 (sum / f64::from(samples) / law.mean() - 1.0).abs() < 1e-5,
                 "{law:?}"
             );
+        }
+    }
+
+    #[test]
+    fn the_slope_is_the_derivative_of_the_value_inside_every_piece() {
+        for law in laws() {
+            for (piece, &start) in law.starts().iter().enumerate() {
+                let end = law.starts().get(piece + 1).copied().unwrap_or(1.0);
+                let h = 1e-5 * (end - start);
+                for i in 1..20 {
+                    let here = start + (end - start) * f64::from(i) / 20.0;
+                    let difference =
+                        (law.value(here + h, piece) - law.value(here - h, piece)) / (2.0 * h);
+                    let error = (law.slope(here, piece) - difference).abs();
+                    // Third derivatives times h^2, and rounding of k in 2 h: 1e-5.
+                    let bound = 1e-5 * law.mean() / (end - start);
+                    assert!(error < bound, "{law:?} at {here}: {error}");
+                }
+            }
         }
     }
 

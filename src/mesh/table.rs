@@ -73,4 +73,9 @@ impl Table {
         let line = self.lines[line];
         line.at_start + line.slope * (cycle - line.start)
     }
+
+    /// Its change per period along the given line.
+    pub(super) fn slope(&self, line: usize) -> f64 {
+        self.lines[line].slope
+    }
 }

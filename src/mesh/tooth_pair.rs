@@ -46,6 +46,22 @@ impl ToothPair {
         self.pair * self.profile(xi * xi) * load_share
     }
 
+    /// dk/dx [N/m per pitch]; at the end of a ramp both sides agree.
+    pub(super) fn one_pair_slope(&self, x: f64) -> f64 {
+        let eps = self.contact_ratio;
+        let (xi, xi_slope) = (2.0 * x / eps - 1.0, 2.0 / eps);
+        let profile_slope = -2.0 * xi * xi_slope * (self.quadratic + 2.0 * xi * xi * self.quartic);
+        let near = x.min(eps - x);
+        if self.ramp == 0.0 || near >= self.ramp {
+            return self.pair * profile_slope;
+        }
+        let u = (near / self.ramp).max(0.0);
+        let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
+        let towards = if x <= 0.5 * eps { 1.0 } else { -1.0 };
+        let share_slope = 30.0 * u * u * (1.0 - u) * (1.0 - u) * towards / self.ramp;
+        self.pair * (profile_slope * share + self.profile(xi * xi) * share_slope)
+    }
+
     /// 1 - quadratic xi^2 - quartic xi^4 over xi^2.
     fn profile(&self, xi_squared: f64) -> f64 {
         1.0 - xi_squared * (self.quadratic + xi_squared * self.quartic)

@@ -56,6 +56,11 @@ impl TransmissionError {
     pub fn slope(&self, phase: f64) -> f64 {
         self.series.slope(phase)
     }
+
+    /// d2e/dp2 [m per pitch squared] at a mesh phase [pitches].
+    pub fn curvature(&self, phase: f64) -> f64 {
+        self.series.curvature(phase)
+    }
 }
 
 #[cfg(test)]

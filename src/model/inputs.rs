@@ -81,6 +81,14 @@ impl Inputs {
 }
 
 impl BaseMotion {
+    /// A multiple of the motion.
+    pub(super) fn times(&self, factor: f64) -> BaseMotion {
+        BaseMotion {
+            displacement: self.displacement.map(|value| factor * value),
+            velocity: self.velocity.map(|value| factor * value),
+        }
+    }
+
     /// The sum of two motions.
     pub(super) fn plus(&self, other: &BaseMotion) -> BaseMotion {
         let sum = |one: [f64; 2], two: [f64; 2]| [one[0] + two[0], one[1] + two[1]];
@@ -124,6 +132,14 @@ impl SupportVibration {
         }
         let angle = self.frequency * time;
         self.at_angles(self.phase.map(|phase| angle + phase))
+    }
+
+    /// Rate of that motion at `time`: velocity and acceleration.
+    pub(super) fn rate(&self, time: f64) -> BaseMotion {
+        // A quarter turn ahead, times the circular frequency.
+        let angle = self.frequency * time + TAU / 4.0;
+        self.at_angles(self.phase.map(|phase| angle + phase))
+            .times(self.frequency)
     }
 
     fn at_angles(&self, angles: [f64; 2]) -> BaseMotion {

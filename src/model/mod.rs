@@ -16,6 +16,7 @@
 //! Nothing here changes in time: see [`Excitation`] for f(t) and the forces, [`equilibrium`] for the start and
 //! [`Motion`] for what the outside sees. Knows no FMI and no solver but its [`System`].
 
+mod change;
 mod coupled;
 mod equilibrium;
 mod excitation;
@@ -29,13 +30,14 @@ mod tooth_contact;
 use nalgebra::DMatrix;
 
 use crate::config::{Planar, SpeedMode, TorqueCoupling};
-use crate::mesh::{GearMotion, LineOfAction, StiffnessLaw, TransmissionError};
+use crate::mesh::{GearLoad, GearMotion, LineOfAction, StiffnessLaw, TransmissionError};
 use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
 use crate::solver::{Block, Coupling, Harmonic, Row, System};
 use crate::train::{self, GearAddress, GearTrain};
 
+pub use change::Change;
 pub use coupled::NaturalVibration;
-pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium};
+pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
 pub use inputs::{BaseMotion, Inputs};
 pub use motion::Motion;
@@ -220,6 +222,27 @@ impl ModalModel {
         let mesh = self.meshes.iter().rfind(|mesh| mesh.first_law <= law)?;
         let own = law - mesh.first_law;
         (own < mesh.law_count()).then_some((mesh, own))
+    }
+
+    /// Number of the lateral block that a bearing holds; `input` is its place among the inputs.
+    fn lateral_block_of(&self, input: usize) -> usize {
+        let mut before = 0;
+        let holds = |rotor: &Rotor| {
+            before += rotor.bearings.len();
+            input < before
+        };
+        2 * self.rotors.iter().position(holds).unwrap_or(0)
+    }
+
+    /// The meshes of a gear, and which side of each it is.
+    fn sides_of(&self, gear: GearAddress) -> impl Iterator<Item = (usize, usize)> {
+        let sides = move |(index, mesh): (usize, &Mesh)| {
+            let gears = mesh.gears;
+            (0..2)
+                .filter(move |&side| gears[side] == gear)
+                .map(move |side| (index, side))
+        };
+        self.meshes.iter().enumerate().flat_map(sides)
     }
 
     /// Number of modes of each rotor.
@@ -506,6 +529,16 @@ impl Bearing {
             (self.stiffness, self.damping)
         }
     }
+
+    /// The change of both with the speed.
+    fn slopes_at(&self, speed: f64) -> (Planar, Planar) {
+        if self.follows_speed {
+            let slopes = self.bearing.coefficient_slopes(speed);
+            (slopes.stiffness, slopes.damping)
+        } else {
+            (Planar::ZERO, Planar::ZERO)
+        }
+    }
 }
 
 impl Mesh {
@@ -517,6 +550,20 @@ impl Mesh {
     /// Mesh frequency at the mean speed [Hz].
     pub fn frequency(&self) -> f64 {
         self.phase_rate.abs()
+    }
+
+    /// What normal forces of the reference flank and of the back flank [N] do to gear a and b; `printed` is the force
+    /// that the torque follows where it follows the printed equation.
+    fn loads(&self, [front, back]: [f64; 2], printed: Option<f64>) -> [GearLoad; 2] {
+        let torques = self.line.loads(printed.unwrap_or(front));
+        let behind = self.line.opposite_flank().loads(back);
+        let mut loads = self.line.loads(front);
+        for ((load, torque), behind) in loads.iter_mut().zip(torques).zip(behind) {
+            load.x += behind.x;
+            load.y += behind.y;
+            load.torque = torque.torque + behind.torque;
+        }
+        loads
     }
 
     /// The couplings through which the mesh pushes.

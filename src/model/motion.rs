@@ -10,7 +10,7 @@
 use super::inputs::product;
 use super::radial::secant;
 use super::tooth_contact::Phase;
-use super::{Bearing, Inputs, Mesh, ModalModel};
+use super::{BaseMotion, Bearing, Inputs, Mesh, ModalModel};
 use crate::config::TorqueCoupling;
 use crate::mesh::GearLoad;
 use crate::solver::{Row, State};
@@ -33,7 +33,7 @@ impl Motion<'_> {
         row.dot(&self.state.position)
     }
 
-    fn velocity(&self, row: &Row) -> f64 {
+    pub(super) fn velocity(&self, row: &Row) -> f64 {
         row.dot(&self.state.velocity)
     }
 
@@ -68,7 +68,7 @@ impl Motion<'_> {
         self.displacement(theta) - mean
     }
 
-    fn phase(&self, mesh: &Mesh) -> Phase {
+    pub(super) fn phase(&self, mesh: &Mesh) -> Phase {
         if self.model.is_free() {
             let gear = mesh.gears[0];
             let theta = &self.model.rotors[gear.rotor].gears[gear.gear].theta;
@@ -98,7 +98,7 @@ impl Motion<'_> {
     }
 
     /// Normal force of the reference flank and of the back flank [N].
-    fn flank_forces(&self, mesh: &Mesh) -> [f64; 2] {
+    pub(super) fn flank_forces(&self, mesh: &Mesh) -> [f64; 2] {
         let phase = self.phase(mesh);
         let k = mesh.stiffness(phase);
         [0, 1].map(|flank| {
@@ -114,51 +114,32 @@ impl Motion<'_> {
     /// What a mesh does to gear a and gear b.
     pub fn mesh_loads(&self, mesh: usize) -> [GearLoad; 2] {
         let mesh = &self.model.meshes[mesh];
-        let [front, back] = self.flank_forces(mesh);
-        let mut loads = mesh.line.loads(front);
-        if mesh.torque_coupling == TorqueCoupling::AsPrinted {
+        let printed = (mesh.torque_coupling == TorqueCoupling::AsPrinted).then(|| {
             let row = &mesh.rotation_row;
             let k = mesh.stiffness(self.phase(mesh));
-            let force = k * self.displacement(row) + mesh.damping * self.velocity(row);
-            for (load, printed) in loads.iter_mut().zip(mesh.line.loads(force)) {
-                load.torque = printed.torque;
-            }
-        }
-        let behind = mesh.line.opposite_flank().loads(back);
-        for (load, behind) in loads.iter_mut().zip(behind) {
-            load.x += behind.x;
-            load.y += behind.y;
-            load.torque += behind.torque;
-        }
-        loads
+            k * self.displacement(row) + mesh.damping * self.velocity(row)
+        });
+        mesh.loads(self.flank_forces(mesh), printed)
     }
 
     /// Sum of the mesh torques on a gear [N m].
     pub fn mesh_torque(&self, gear: GearAddress) -> f64 {
-        let mut sum = 0.0;
-        for (index, mesh) in self.model.meshes.iter().enumerate() {
-            for (side, address) in mesh.gears.iter().enumerate() {
-                if *address == gear {
-                    sum += self.mesh_loads(index)[side].torque;
-                }
-            }
-        }
-        sum
+        let sides = self.model.sides_of(gear);
+        sides
+            .map(|(mesh, side)| self.mesh_loads(mesh)[side].torque)
+            .sum()
     }
 
     /// Force of the rotor on the gearbox through a bearing [N]; `input` is the bearing's place among the
     /// inputs.
     pub fn bearing_force(&self, rotor: usize, bearing: &Bearing, input: usize) -> [f64; 2] {
-        let station = &bearing.station;
-        let vibration = self.model.vibration.motion(self.state.time);
-        let base = self.inputs.bases[input].plus(&vibration);
-        let relative = |shaft: [f64; 2], base: [f64; 2]| [shaft[0] - base[0], shaft[1] - base[1]];
-        let displacement = [self.displacement(&station.x), self.displacement(&station.y)];
-        let velocity = [self.velocity(&station.x), self.velocity(&station.y)];
+        let BaseMotion {
+            displacement,
+            velocity,
+        } = self.relative_to_gearbox(bearing, input);
         let (stiffness, damping) = bearing.at_speed(self.speed(rotor));
-        let displacement = relative(displacement, base.displacement);
         let spring = product(&stiffness, displacement);
-        let damper = product(&damping, relative(velocity, base.velocity));
+        let damper = product(&damping, velocity);
         let mut force = [spring[0] + damper[0], spring[1] + damper[1]];
         let mut radial = self.model.radial.iter();
         if let Some(radial) = radial.find(|radial| radial.input == input) {
@@ -168,5 +149,17 @@ impl Motion<'_> {
             force[1] += secant * y;
         }
         force
+    }
+
+    /// Motion of the shaft at a bearing relative to the gearbox.
+    pub(super) fn relative_to_gearbox(&self, bearing: &Bearing, input: usize) -> BaseMotion {
+        let station = &bearing.station;
+        let shaft = BaseMotion {
+            displacement: [self.displacement(&station.x), self.displacement(&station.y)],
+            velocity: [self.velocity(&station.x), self.velocity(&station.y)],
+        };
+        let vibration = self.model.vibration.motion(self.state.time);
+        let gearbox = self.inputs.bases[input].plus(&vibration);
+        shaft.plus(&gearbox.times(-1.0))
     }
 }

@@ -95,6 +95,29 @@ impl Mesh {
         }
     }
 
+    /// dk/dp [N/m per pitch]; at a jump that of the piece that holds from then on.
+    pub(super) fn stiffness_slope(&self, phase: Phase) -> f64 {
+        let piece = piece_of(&self.law, phase.ahead());
+        self.factor * self.law.slope(phase.value - piece.origin, piece.index)
+    }
+
+    /// How a compression changes with the phase and with its deflection and rate.
+    pub(super) fn compression_change(
+        &self,
+        flank: usize,
+        phase: Phase,
+        change: Phase,
+        motion: [f64; 2],
+    ) -> Compression {
+        let sign = if flank == 0 { 1.0 } else { -1.0 };
+        let slope = self.error.slope(phase.value);
+        let curvature = self.error.curvature(phase.value);
+        Compression {
+            depth: motion[0] - sign * slope * change.value,
+            rate: motion[1] - sign * (curvature * change.value * phase.rate + slope * change.rate),
+        }
+    }
+
     /// F of a flank with stiffness k; 0 where a unilateral flank is open.
     pub(super) fn flank_force(&self, k: f64, compression: Compression) -> f64 {
         let force = self.held_force(k, compression);

@@ -57,6 +57,28 @@ impl Bearing {
         }
     }
 
+    /// The change of the coefficients with the speed of the rotor [per rad/s].
+    pub fn coefficient_slopes(&self, speed: f64) -> Coefficients {
+        match &self.law {
+            BearingLaw::Constant(_) => Coefficients {
+                stiffness: Planar::ZERO,
+                damping: Planar::ZERO,
+            },
+            BearingLaw::AtSpeed(curves) => {
+                let slopes = |curves: &[MonotoneCubic; 4]| {
+                    let [xx, xy, yx, yy] = curves
+                        .each_ref()
+                        .map(|curve| speed.signum() * curve.slope(speed.abs()));
+                    Planar { xx, xy, yx, yy }
+                };
+                Coefficients {
+                    stiffness: slopes(&curves.stiffness),
+                    damping: slopes(&curves.damping),
+                }
+            }
+        }
+    }
+
     /// Whether the coefficients depend on the speed.
     pub fn depends_on_speed(&self) -> bool {
         matches!(self.law, BearingLaw::AtSpeed(_))

@@ -78,6 +78,17 @@ impl PairStiffness {
         self.coefficients[0] + t * one - two
     }
 
+    /// dk/dx [N/m per pitch].
+    pub fn slope(&self, x: f64) -> f64 {
+        // T_n' = n U_(n-1); Clenshaw's recurrence for the U.
+        let t = 2.0 * x / self.contact_ratio - 1.0;
+        let (mut one, mut two) = (0.0, 0.0);
+        for (n, &coefficient) in self.coefficients.iter().enumerate().skip(1).rev() {
+            (one, two) = (n as f64 * coefficient + 2.0 * t * one - two, one);
+        }
+        one * 2.0 / self.contact_ratio
+    }
+
     /// Integral over the contact [N/m x pitches]: the mean, over a pitch, of the sum over all pairs.
     pub fn integral(&self) -> f64 {
         // Integral of T_n over [-1, 1]: 2 / (1 - n^2) for even n, 0 for odd n.

@@ -5,7 +5,7 @@ use core::mem::{align_of, offset_of, size_of};
 
 use fmi::fmi2::binding;
 use geartrain::fmi2::abi;
-use geartrain::fmi2::exports::{capabilities::*, common::*, stepping::*, variables::*};
+use geartrain::fmi2::exports::{capabilities::*, common::*, state::*, stepping::*, variables::*};
 use importers::functions::Functions;
 
 /// The exported functions: that this compiles is the proof that the raw host calls them by their types.

@@ -16,8 +16,12 @@ const PATIENCE: u64 = 1_000_000;
 const SMALLEST_USEFUL_STEP: f64 = 1e-11;
 /// No call takes more steps: some minutes of work.
 const MOST_STEPS: u64 = 100_000_000;
-/// An event at the very start of a step still advances by this part of it.
+/// An event at the very start of a step still advances by this part of it; events that lie closer than that are one.
 const LEAST_ADVANCE: f64 = 1e-6;
+/// In parts of a step shorter than this a piece that has just begun does not end again: it begins where rounding lets it.
+const TOO_SHORT_TO_END: f64 = 1e-3;
+/// After so many interruptions of one step a law that is to land counts as landed.
+const MOST_INTERRUPTIONS: u32 = 20;
 /// A stretch begins with a guess of this part of it.
 const FIRST_STEP: f64 = 1.0 / 16.0;
 
@@ -64,8 +68,6 @@ pub(super) enum Outcome {
     Accepted {
         /// Length the next step should have relative to this one.
         ratio: f64,
-        /// Whether the piece of the landing law, if there is one, has come to its end.
-        landed: bool,
     },
     /// The state is unchanged: the step was too long.
     Rejected {
@@ -81,6 +83,17 @@ pub(super) enum Outcome {
     },
 }
 
+/// How the piece of a law may end in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// Inside the step, which interrupts it.
+    Watched,
+    /// With the step.
+    Landing,
+    /// Not at all: it has just begun.
+    Excused,
+}
+
 /// A way to take steps.
 pub(super) trait Method {
     /// Looks at the state: what the couplings see.
@@ -89,14 +102,14 @@ pub(super) trait Method {
     fn instant<'a>(&'a self, state: &'a State) -> Instant<'a>;
     /// Prepares for steps from there with these pieces.
     fn begin<F: Forcing>(&mut self, task: Task<'_, F>, state: &State, pieces: &[Piece]);
-    /// Tries a step. `landing` is the law whose piece ends with the step.
+    /// Tries a step. A law that was to land and has not is put under watch again.
     fn try_step<F: Forcing>(
         &mut self,
         task: Task<'_, F>,
         state: &mut State,
         span: Span,
         pieces: &[Piece],
-        landing: Option<usize>,
+        endings: &mut [Ending],
     ) -> Result<Outcome, StepError>;
 }
 
@@ -104,6 +117,11 @@ pub(super) trait Method {
 #[derive(Debug, Clone)]
 pub(super) struct March {
     pieces: Vec<Piece>,
+    /// When the piece of each law began because the motion ended the one before [s].
+    begun: Vec<f64>,
+    /// The laws whose pieces end with the present step.
+    landing: Vec<bool>,
+    endings: Vec<Ending>,
     /// Steps tried since `since`, the start of the present call.
     tried: u64,
     since: f64,
@@ -115,6 +133,9 @@ impl March {
     pub(super) fn new(system: &System) -> March {
         March {
             pieces: vec![Piece::default(); system.laws],
+            begun: vec![f64::NEG_INFINITY; system.laws],
+            landing: vec![false; system.laws],
+            endings: vec![Ending::Watched; system.laws],
             tried: 0,
             since: 0.0,
             events: 0,
@@ -141,6 +162,7 @@ impl March {
         // Less than rounding lets times differ is no stretch of time.
         let rounding = 4.0 * f64::EPSILON * until.abs();
         while state.time < until - rounding {
+            self.begun.fill(f64::NEG_INFINITY);
             let next = task.forcing.next_breakpoint(state.time + rounding);
             let stop = if next < until - rounding { next } else { until };
             let inside = 0.5 * (state.time + stop);
@@ -201,20 +223,29 @@ impl March {
         span: Span,
         last: bool,
     ) -> Result<bool, StepError> {
-        let (mut span, mut landing) = (span, None);
+        let (whole, mut span, mut interruptions) = (span, span, 0);
+        self.landing.fill(false);
         loop {
             self.check_progress(state.time, span.step)?;
             self.tried += 1;
-            match method.try_step(task, state, span, &self.pieces, landing)? {
-                Outcome::Accepted { ratio, landed } => {
-                    if let Some(law) = landing {
-                        if !landed {
-                            return Ok(true); // the next step will find it
+            let short = span.step < TOO_SHORT_TO_END * whole.step;
+            let laws = self.endings.iter_mut().zip(&self.begun).zip(&self.landing);
+            for ((ending, begun), landing) in laws {
+                *ending = match landing {
+                    // Rounding may keep it from ever landing exactly.
+                    true if interruptions > MOST_INTERRUPTIONS => Ending::Excused,
+                    true => Ending::Landing,
+                    false if short && *begun == span.start => Ending::Excused,
+                    false => Ending::Watched,
+                };
+            }
+            match method.try_step(task, state, span, &self.pieces, &mut self.endings)? {
+                Outcome::Accepted { ratio } => {
+                    if self.landing.contains(&true) {
+                        for (landing, ending) in self.landing.iter_mut().zip(&self.endings) {
+                            *landing &= *ending != Ending::Watched;
                         }
-                        self.events += 1;
-                        let (piece, at) = (&mut self.pieces[law], method.instant(state));
-                        *piece = task.forcing.next_piece(law, *piece, at);
-                        method.begin(task, state, &self.pieces);
+                        self.end_pieces(method, task, state);
                         return Ok(true);
                     }
                     state.control.wanted_step = span.step * ratio;
@@ -225,17 +256,44 @@ impl March {
                     return Ok(true);
                 }
                 Outcome::Interrupted { law, time } => {
-                    let step = (time - span.start).max(LEAST_ADVANCE * span.step);
-                    let end = span.start + step;
-                    if end <= span.start || end >= span.end {
-                        // So near to the end that the step may as well land there.
-                        (span.end, landing) = (span.end, Some(law));
-                    } else {
-                        (span, landing) = (Span { end, step, ..span }, Some(law));
+                    let least = LEAST_ADVANCE * whole.step;
+                    let end = time.max(span.start + least);
+                    let again = self.landing[law];
+                    if !again && end < span.end - least {
+                        self.landing.fill(false);
                     }
+                    // Events that lie closer are one, and so is an event with the end of the step.
+                    if end < span.end && (again || end < span.end - least) {
+                        let step = end - span.start;
+                        span = Span { end, step, ..span };
+                    }
+                    self.landing[law] = true;
+                    interruptions += 1;
                 }
             }
         }
+    }
+
+    /// The pieces of the laws that the step has landed on give way to the next ones.
+    fn end_pieces<F: Forcing>(
+        &mut self,
+        method: &mut impl Method,
+        task: Task<'_, F>,
+        state: &State,
+    ) {
+        let laws = self
+            .pieces
+            .iter_mut()
+            .zip(&mut self.begun)
+            .zip(&self.landing);
+        for (law, ((piece, begun), landed)) in laws.enumerate() {
+            if *landed {
+                self.events += 1;
+                *begun = state.time;
+                *piece = task.forcing.next_piece(law, *piece, method.instant(state));
+            }
+        }
+        method.begin(task, state, &self.pieces);
     }
 
     /// A call has to end: refuses to go on without end with steps that lead nowhere.

@@ -221,10 +221,9 @@ impl<'a> Laws<'a> {
     /// Where the linearized equations have no residual, softly held while it is still a large part of the first.
     fn target(&self, load: &[f64], position: &[f64], part: f64) -> Result<Vec<f64>, NoEquilibrium> {
         let springs = self.tangent(position);
-        if part < FREE {
-            if let Ok(held) = Held::of(self.model, &springs, 0.0) {
-                return held.solve(load, &springs);
-            }
+        let unheld = (part < FREE).then(|| Held::of(self.model, &springs, 0.0));
+        if let Some(Ok(held)) = unheld {
+            return held.solve(load, &springs);
         }
         let mu = FIRST_HOLD * part.min(1.0);
         let mut load = load.to_vec();

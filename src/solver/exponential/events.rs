@@ -5,7 +5,7 @@
 //! What a cubic over two of these intervals says of the point between them tells how far that can be trusted: laws that are
 //! clear of their ends by more than that go on, others ask for a step that shows them clearly.
 
-use super::super::march::{Span, Task};
+use super::super::march::{Ending, Span, Task};
 use super::super::{Forcing, Piece};
 use super::kernel::Kernel;
 use super::polynomials::{IN_TIME, PLACES, POINTS};
@@ -26,8 +26,8 @@ const BETWEEN: usize = 4;
 /// What a step shows of the pieces.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sighting {
-    /// All laws stay in their pieces. Whether that of the landing law ends with the step.
-    Clear { landed: bool },
+    /// All laws stay in their pieces, but for those that land.
+    Clear,
     /// The motion ends the piece of a law.
     Ends { law: usize, time: f64 },
     /// The step is too long to say; the length it should have relative to this one.
@@ -58,19 +58,21 @@ impl Margins {
 }
 
 impl Kernel {
-    /// The law whose piece the motion ends first, and when. `landing` is one whose piece should end with the step.
+    /// The law whose piece the motion ends first, and when. A law that was to land and has not is put under watch again.
     pub(super) fn sight_events<F: Forcing>(
         &mut self,
         task: Task<'_, F>,
         slow: &[f64],
         span: Span,
         pieces: &[Piece],
-        landing: Option<usize>,
+        endings: &mut [Ending],
     ) -> Sighting {
         let clear = task.tolerance.sqrt().clamp(CLEAR.0, CLEAR.1);
         let mut earliest: Option<(usize, f64)> = None;
-        let mut landed = true;
-        for (law, &piece) in pieces.iter().enumerate() {
+        for (law, (&piece, ending)) in pieces.iter().zip(endings).enumerate() {
+            if *ending == Ending::Excused {
+                continue;
+            }
             let view = View {
                 task,
                 slow,
@@ -83,7 +85,7 @@ impl Kernel {
             };
             let missed = view.missed(&mut self.sight, &margins);
             if margins.least() > missed {
-                landed &= Some(law) != landing;
+                *ending = Ending::Watched;
                 continue;
             }
             let range = margins.range();
@@ -96,7 +98,7 @@ impl Kernel {
                 };
             }
             let mut slack = 0.0;
-            if Some(law) == landing {
+            if *ending == Ending::Landing {
                 slack = (LANDED * range).max(0.1 * SMALLEST_MARGIN);
                 if margins.0[0] <= slack {
                     continue; // the piece was at its end from the start
@@ -107,12 +109,13 @@ impl Kernel {
                     earliest = Some((law, time));
                 }
                 Some(_) => {}
-                None => landed &= Some(law) != landing || margins.last() <= slack,
+                None if margins.last() > slack => *ending = Ending::Watched,
+                None => {}
             }
         }
         match earliest {
             Some((law, time)) => Sighting::Ends { law, time },
-            None => Sighting::Clear { landed },
+            None => Sighting::Clear,
         }
     }
 }

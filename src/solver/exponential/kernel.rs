@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use super::super::march::{Method, Outcome, Span, Task, canonical};
+use super::super::march::{Ending, Method, Outcome, Span, Task, canonical};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::{Coefficients, Scratch};
 use super::events::Sighting;
@@ -262,7 +262,7 @@ impl Method for Kernel {
         state: &mut State,
         span: Span,
         pieces: &[Piece],
-        landing: Option<usize>,
+        endings: &mut [Ending],
     ) -> Result<Outcome, StepError> {
         let index = self.coefficients_for(canonical(span.step));
         for (angle, harmonic) in self.sight.angles.iter_mut().zip(task.forcing.harmonics()) {
@@ -277,14 +277,14 @@ impl Method for Kernel {
             }
             return Err(StepError::NotFinite { time: span.start });
         }
-        let landed = match self.sight_events(task, &state.slow, span, pieces, landing) {
+        match self.sight_events(task, &state.slow, span, pieces, endings) {
             Sighting::Ends { law, time } => return Ok(Outcome::Interrupted { law, time }),
             Sighting::Unclear { ratio } => {
                 self.counts.rejected += 1;
                 return Ok(Outcome::Rejected { ratio });
             }
-            Sighting::Clear { landed } => landed,
-        };
+            Sighting::Clear => {}
+        }
         let error = self.error(task, state, span, pieces, index);
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: span.end });
@@ -301,6 +301,6 @@ impl Method for Kernel {
         } else {
             ratio.max(1.0)
         };
-        Ok(Outcome::Accepted { ratio, landed })
+        Ok(Outcome::Accepted { ratio })
     }
 }

@@ -30,7 +30,7 @@
 mod control;
 mod kernel;
 
-use super::march::{March, Method, Outcome, Span, Task};
+use super::march::{Ending, March, Method, Outcome, Span, Task};
 use super::{
     Control, Counts, Forcing, Instant, Piece, State, StepError, System, Track, copy_tracks,
 };
@@ -183,13 +183,13 @@ impl Pair {
         state: &State,
         span: Span,
         pieces: &[Piece],
-        landing: Option<usize>,
+        endings: &mut [Ending],
     ) -> Option<(usize, f64)> {
         let mut earliest: Option<(usize, f64)> = None;
         for (law, &piece) in pieces
             .iter()
             .enumerate()
-            .filter(|(law, _)| Some(*law) != landing)
+            .filter(|(law, _)| endings[*law] == Ending::Watched)
         {
             let margin = |[deflection, rate]: &[Vec<f64>; 2], time: f64| {
                 let at = Instant {
@@ -264,7 +264,7 @@ impl Method for Pair {
         state: &mut State,
         span: Span,
         pieces: &[Piece],
-        landing: Option<usize>,
+        endings: &mut [Ending],
     ) -> Result<Outcome, StepError> {
         copy_tracks(&mut self.retry, &state.tracks);
         let error = match self.take_both(task, state, span, pieces) {
@@ -288,13 +288,13 @@ impl Method for Pair {
             let [deflection, rate] = &mut self.sight[1];
             task.system
                 .deflections_into(&state.position, &state.velocity, deflection, rate);
-            if let Some((law, time)) = self.interruption(task, state, span, pieces, landing) {
+            if let Some((law, time)) = self.interruption(task, state, span, pieces, endings) {
                 self.take_back(task, state, pieces);
                 return Ok(Outcome::Interrupted { law, time });
             }
             self.sight.swap(0, 1);
         }
-        if landing.is_some() {
+        if endings.contains(&Ending::Landing) {
             let State {
                 position,
                 velocity,
@@ -311,7 +311,6 @@ impl Method for Pair {
         core::mem::swap(&mut state.control, &mut self.next_control);
         Ok(Outcome::Accepted {
             ratio: if error > 1.0 { ratio.min(0.99) } else { ratio },
-            landed: true,
         })
     }
 }

@@ -7,7 +7,9 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use support::{case_four, started};
+use geartrain::config::SolverChoice;
+use geartrain::simulation::Simulation;
+use support::{assembled, case_four, file_inputs, started, valid};
 
 struct Counting;
 
@@ -46,4 +48,32 @@ fn steps_inputs_and_outputs_allocate_nothing() {
     }
     assert_eq!(ALLOCATIONS.get() - before, 0);
     assert!(sum.is_finite() && simulation.counts().factorizations > 10);
+}
+
+#[test]
+fn impacts_free_rotation_and_radial_forces_allocate_nothing_either() {
+    for name in ["rattle", "coast_down", "run_up", "rolling"] {
+        let path = format!("{}/tests/models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        for solver in [SolverChoice::Exponential, SolverChoice::Newmark] {
+            let mut settings = valid(&text).config.simulation;
+            (settings.solver, settings.tolerance) = (solver, 1e-4);
+            let inputs = file_inputs(&text);
+            let mut simulation =
+                Simulation::start(assembled(&text), inputs, &settings, 0.0).unwrap();
+            simulation.advance_to(1e-5).unwrap();
+            let mut quiet = 0;
+            for index in 1..=200 {
+                let (before, refreshes) = (ALLOCATIONS.get(), simulation.counts().refreshes);
+                simulation.advance_to(2e-5 * f64::from(index)).unwrap();
+                assert!(simulation.motion().mesh_force(0).is_finite());
+                // Where the blocks follow the speed of a free rotation, they are taken apart anew before the step.
+                if simulation.counts().refreshes == refreshes {
+                    assert_eq!(ALLOCATIONS.get() - before, 0, "{name}, {solver:?}");
+                    quiet += 1;
+                }
+            }
+            assert!(quiet > 150, "{name}, {solver:?}: {quiet} of 200 calls");
+        }
+    }
 }

@@ -7,7 +7,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::config::{self, SolverChoice, Start};
-use crate::model::{Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium};
+use crate::model::{
+    Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium, equilibrium_change,
+};
 use crate::solver::{Counts, Integrator, State, StepError};
 
 /// A running simulation.
@@ -87,6 +89,29 @@ impl Simulation {
             model: &self.model,
             state: &self.state,
             inputs: &self.inputs,
+        }
+    }
+
+    /// q'' under the inputs as they are now.
+    pub fn acceleration(&self) -> Vec<f64> {
+        let system = &self.model.system;
+        let mut held = vec![0.0; system.size];
+        self.inputs.load_into(&self.model, &mut held);
+        let excitation = Excitation::new(&self.model, &self.inputs, &held);
+        system.acceleration(&excitation, &self.state)
+    }
+
+    /// How the static displacement a simulation starts from changes with the inputs; nothing where it starts from rest.
+    pub fn start_change(
+        &self,
+        start: Start,
+        direction: &Inputs,
+    ) -> Result<Vec<f64>, NoEquilibrium> {
+        match start {
+            Start::Rest => Ok(vec![0.0; self.model.system.size]),
+            Start::Equilibrium => {
+                equilibrium_change(&self.model, &self.inputs, &self.state.position, direction)
+            }
         }
     }
 

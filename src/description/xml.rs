@@ -6,7 +6,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use super::{LOG_CATEGORIES, Xml, number, written};
 use crate::config::Config;
-use crate::interface::{Causality, Interface, Unit, Variable};
+use crate::interface::{Causality, Interface, OUTPUT_DERIVATIVE_ORDER, Unit, Variable};
 
 /// The text of modelDescription.xml.
 pub fn model_description(config: &Config, interface: &Interface) -> String {
@@ -43,12 +43,15 @@ pub fn model_description(config: &Config, interface: &Interface) -> String {
 }
 
 fn co_simulation(xml: &mut Xml, config: &Config) -> io::Result<()> {
+    let order = OUTPUT_DERIVATIVE_ORDER.to_string();
     let attributes = [
         ("modelIdentifier", config.name.as_str()),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canNotUseMemoryManagementFunctions", "true"),
+        ("maxOutputDerivativeOrder", order.as_str()),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "true"),
     ];
     xml.create_element("CoSimulation")
         .with_attributes(attributes)

@@ -10,11 +10,14 @@ mod table;
 mod unit;
 
 use crate::config::Config;
-use crate::model::{Inputs, ModalModel, Motion};
+use crate::model::{Change, Inputs, ModalModel, Motion};
 use crate::train::{GearAddress, GearTrain};
 
 pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
 pub use unit::{BaseUnit, DisplayUnit, Unit};
+
+/// The highest order of time derivatives of outputs: [`Quantity::change`].
+pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
 
 /// The table.
 #[derive(Debug, Clone, PartialEq)]
@@ -238,7 +241,61 @@ impl Quantity {
     }
 }
 
+impl Quantity {
+    /// How the value of [`Quantity::evaluate`] changes; 0 for everything that stays as it is.
+    pub fn change(self, change: &Change<'_>) -> f64 {
+        let rotors = &change.motion.model.rotors;
+        match self {
+            Quantity::MeshForce { mesh } => change.mesh_force(mesh),
+            Quantity::MeshForceOnB { mesh, axis } => {
+                let [_, on_b] = change.mesh_loads(mesh);
+                [on_b.x, on_b.y][axis]
+            }
+            Quantity::MeshDeflection { mesh } => change.mesh_deflection(mesh),
+            Quantity::MeshStiffness { mesh } => change.mesh_stiffness(mesh),
+            Quantity::GearMotion { gear, direction } => {
+                direction.change(gear.rotor, &rotors[gear.rotor].gears[gear.gear], change)
+            }
+            Quantity::GearTorque { gear } => change.mesh_torque(gear),
+            Quantity::BearingForce {
+                rotor,
+                bearing,
+                input,
+                axis,
+            } => change.bearing_force(rotor, &rotors[rotor].bearings[bearing], input)[axis],
+            Quantity::BearingMotion {
+                rotor,
+                bearing,
+                direction,
+            } => direction.change(rotor, &rotors[rotor].bearings[bearing].station, change),
+            Quantity::ProbeMotion {
+                rotor,
+                probe,
+                direction,
+            } => direction.change(rotor, &rotors[rotor].probes[probe], change),
+            Quantity::Speed { rotor } => change.speed(rotor),
+            Quantity::Angle { rotor } => change.angle(rotor),
+            Quantity::Modal { coordinate } => change.position[coordinate],
+            Quantity::Torque { .. }
+            | Quantity::BaseDisplacement { .. }
+            | Quantity::BaseVelocity { .. }
+            | Quantity::Parameter(_)
+            | Quantity::DerivedSpeed { .. }
+            | Quantity::LateralFrequency { .. }
+            | Quantity::TorsionalFrequency { .. } => 0.0,
+        }
+    }
+}
+
 impl Direction {
+    fn change(self, rotor: usize, station: &crate::model::Station, change: &Change<'_>) -> f64 {
+        match self {
+            Direction::X => change.displacement(&station.x),
+            Direction::Y => change.displacement(&station.y),
+            Direction::Theta => change.torsion(rotor, &station.theta),
+        }
+    }
+
     fn of(self, rotor: usize, station: &crate::model::Station, motion: &Motion<'_>) -> f64 {
         match self {
             Direction::X => motion.displacement(&station.x),

@@ -10,6 +10,7 @@
 //! module that knows FMI's modes; knows no pointers.
 
 mod calls;
+mod derivatives;
 mod design;
 mod error;
 mod saved;

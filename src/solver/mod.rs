@@ -28,6 +28,7 @@ pub use integrator::Integrator;
 pub use newmark::Newmark;
 pub use row::Row;
 
+use crate::linalg::multiply_add;
 use control::Control;
 
 /// The constant part of the equations of motion.
@@ -230,6 +231,46 @@ impl System {
             slow: self.slow.clone(),
             control: Control::new(self.monitors.len()),
         }
+    }
+
+    /// q'' in a state, just after its time.
+    pub fn acceleration(&self, forcing: &impl Forcing, state: &State) -> Vec<f64> {
+        let State {
+            time,
+            position,
+            velocity,
+            ..
+        } = state;
+        let zeros = || vec![0.0; self.couplings.len()];
+        let (mut deflection, mut rate, mut forces) = (zeros(), zeros(), zeros());
+        self.deflections_into(position, velocity, &mut deflection, &mut rate);
+        let at = Instant {
+            time: *time,
+            deflection: &deflection,
+            rate: &rate,
+            slow: &self.slow,
+        };
+        let mut pieces = vec![Piece::default(); self.laws];
+        let inside = forcing.next_breakpoint(*time).min(time + 1.0);
+        forcing.enter(at, 0.5 * (time + inside), &mut pieces);
+        forcing.forces_into(at, &pieces, &mut forces);
+        let mut acceleration = vec![0.0; self.size];
+        forcing.load_into(*time, &mut acceleration);
+        for block in &self.blocks {
+            let range = block.range();
+            let target = &mut acceleration[range.clone()];
+            multiply_add(
+                -1.0,
+                block.damping.as_slice(),
+                &velocity[range.clone()],
+                target,
+            );
+            multiply_add(-1.0, block.stiffness.as_slice(), &position[range], target);
+        }
+        for (coupling, force) in self.couplings.iter().zip(&forces) {
+            coupling.column.add_to(-force, &mut acceleration);
+        }
+        acceleration
     }
 
     /// d and d' of every coupling.

@@ -1,6 +1,7 @@
-//! Optional capabilities (FMI 2.0.4, 2.1.8, 2.1.9, 4.2.1): exported, not declared, refused in words.
+//! Derivatives (FMI 2.0.4, 2.1.9, 4.2.1). Those of inputs are exported, not declared, and refused in words.
 
 use crate::fmi2::abi::{Component, Integer, Real, Status, ValueReference};
+use crate::fmi2::arguments::{slice, slice_mut};
 use crate::fmi2::guard::call;
 use crate::slave::{Call, Error};
 
@@ -13,22 +14,35 @@ fn unsupported(component: Component, function: &'static str, needs: Call, flag: 
     })
 }
 
-/// Not supported yet.
+/// How outputs change with inputs.
+///
+/// # Safety
+/// The arrays are as long as announced, unless their length is 0.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetDirectionalDerivative(
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: Component,
-    _unknowns: *const ValueReference,
-    _unknown_count: usize,
-    _knowns: *const ValueReference,
-    _known_count: usize,
-    _seed: *const Real,
-    _sensitivity: *mut Real,
+    unknowns: *const ValueReference,
+    unknown_count: usize,
+    knowns: *const ValueReference,
+    known_count: usize,
+    seed: *const Real,
+    sensitivity: *mut Real,
 ) -> Status {
     let (function, needs) = (
         "fmi2GetDirectionalDerivative",
         Call::GetDirectionalDerivative,
     );
-    unsupported(component, function, needs, "providesDirectionalDerivative")
+    call(component, function, needs, |instance| {
+        // SAFETY: the caller's promise.
+        let unknowns = unsafe { slice(unknowns, unknown_count) }?;
+        // SAFETY: the caller's promise.
+        let knowns = unsafe { (slice(knowns, known_count)?, slice(seed, known_count)?) };
+        // SAFETY: the caller's promise.
+        let result = unsafe { slice_mut(sensitivity, unknown_count) }?;
+        instance
+            .slave
+            .directional_derivative(unknowns, knowns, result)
+    })
 }
 
 /// Not supported yet.
@@ -44,15 +58,26 @@ pub extern "C" fn fmi2SetRealInputDerivatives(
     unsupported(component, function, needs, "canInterpolateInputs")
 }
 
-/// Not supported yet.
+/// How outputs change with time.
+///
+/// # Safety
+/// The arrays are as long as announced, unless their length is 0.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetRealOutputDerivatives(
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     component: Component,
-    _references: *const ValueReference,
-    _count: usize,
-    _orders: *const Integer,
-    _values: *mut Real,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const Integer,
+    values: *mut Real,
 ) -> Status {
     let (function, needs) = ("fmi2GetRealOutputDerivatives", Call::GetOutputDerivatives);
-    unsupported(component, function, needs, "maxOutputDerivativeOrder")
+    call(component, function, needs, |instance| {
+        // SAFETY: the caller's promise.
+        let (references, orders) = unsafe { (slice(references, count)?, slice(orders, count)?) };
+        // SAFETY: the caller's promise.
+        let result = unsafe { slice_mut(values, count) }?;
+        instance
+            .slave
+            .output_derivatives(references, orders, result)
+    })
 }

@@ -18,12 +18,14 @@ use crate::solver::Row;
 /// mu at the first step [rad^2/s^2]: that of 10 Hz.
 const FIRST_HOLD: f64 = 4e3;
 /// Part of the first residual from which on nothing is held any more.
-const FREE: f64 = 1e-6;
+const FREE: f64 = 1e-4;
 /// Steps after which contact counts as not to be found, and the last step relative to the position.
 const MOST_STEPS: usize = 500;
-const SETTLED: f64 = 1e-10;
+const SETTLED: f64 = 1e-15;
 /// A step may turn the residual along it round by this part.
 const OVERSHOOT: f64 = 0.1;
+/// A step is not cut to less than this part.
+const LEAST_PART: f64 = 1e-6;
 /// Halvings of the interval in which a step ends.
 const HALVINGS: usize = 40;
 
@@ -196,6 +198,7 @@ impl<'a> Laws<'a> {
         let mut position = vec![0.0; load.len()];
         let mut residual = self.residual(&load, &position);
         let first = norm(&residual);
+        let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let part = norm(&residual) / first;
             if part == 0.0 || first == 0.0 {
@@ -210,10 +213,12 @@ impl<'a> Laws<'a> {
                 *q += step;
             }
             residual = self.residual(&load, &position);
-            // Newton's steps double the digits: the one after this would be below rounding.
-            if part < FREE && norm(&step) <= SETTLED * norm(&position) {
+            // Near the end steps become shorter by orders of magnitude, until rounding keeps them from it.
+            let length = norm(&step);
+            if part < FREE && (length <= SETTLED * norm(&position) || length > 0.5 * before) {
                 return Ok(position);
             }
+            before = length;
         }
         Err(NoEquilibrium { rotor: None })
     }
@@ -251,7 +256,8 @@ impl<'a> Laws<'a> {
                 high = middle;
             }
         }
-        let part = high;
+        // Nothing to be gained along the step: what is left of the residual is rounding.
+        let part = if high < LEAST_PART { 1.0 } else { high };
         step.iter_mut().for_each(|step| *step *= part);
     }
 }

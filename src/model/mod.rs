@@ -16,6 +16,7 @@
 //! Nothing here changes in time: see [`Excitation`] for f(t) and the forces, [`equilibrium`] for the start and
 //! [`Motion`] for what the outside sees. Knows no FMI and no solver but its [`System`].
 
+mod assembly;
 mod change;
 mod coupled;
 mod equilibrium;
@@ -29,11 +30,11 @@ mod tooth_contact;
 
 use nalgebra::DMatrix;
 
-use crate::config::{Planar, SpeedMode, TorqueCoupling};
-use crate::mesh::{GearLoad, GearMotion, LineOfAction, StiffnessLaw, TransmissionError};
-use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
-use crate::solver::{Block, Coupling, Harmonic, Row, System};
-use crate::train::{self, GearAddress, GearTrain};
+use crate::config::{Planar, TorqueCoupling};
+use crate::mesh::{GearLoad, LineOfAction, StiffnessLaw, TransmissionError};
+use crate::rotor::{ModalRotor, ModeCounts};
+use crate::solver::{Harmonic, Row, System};
+use crate::train::{self, GearAddress};
 
 pub use change::Change;
 pub use coupled::NaturalVibration;
@@ -154,50 +155,6 @@ pub struct Mesh {
 }
 
 impl ModalModel {
-    /// Reduces every rotor and couples them. `counts` fixes the number of modes of each rotor; otherwise
-    /// the train's basis decides.
-    pub fn assemble(
-        train: &GearTrain,
-        counts: Option<&[ModeCounts]>,
-    ) -> Result<ModalModel, ReductionError> {
-        let free = train.simulation.speed == SpeedMode::Free;
-        let mut system = System::default();
-        let mut rotors = Vec::new();
-        for (index, rotor) in train.rotors.iter().enumerate() {
-            let fixed = counts.map(|counts| counts[index]);
-            let modal = ModalRotor::reduce(rotor, &train.basis, fixed)?;
-            rotors.push(add_rotor(&mut system, rotor, modal, free));
-        }
-        let mut meshes = Vec::new();
-        for mesh in &train.meshes {
-            meshes.push(join(&mut system, &rotors, mesh, free));
-        }
-        let radial = add_radial_bearings(&mut system, &rotors);
-        let mut spins = Vec::new();
-        let vibration = SupportVibration::new(&train.gearbox_vibration);
-        let mut harmonics = Vec::new();
-        for (index, rotor) in train.rotors.iter().enumerate() {
-            if free {
-                spins.push(add_spin(&mut system, &rotors, index, rotor));
-            } else {
-                let bows = &rotors[index].modal.bows;
-                harmonics.extend(excitation::rotating_load(rotor, &rotors[index], bows));
-            }
-        }
-        system.slow = spins.iter().map(|spin| rotors[spin.rotor].speed).collect();
-        harmonics.extend(vibration.harmonic(&rotors, system.size));
-        system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
-        Ok(ModalModel {
-            system,
-            rotors,
-            meshes,
-            radial,
-            spins,
-            harmonics,
-            vibration,
-        })
-    }
-
     /// Whether the rotations are states.
     pub fn is_free(&self) -> bool {
         !self.spins.is_empty()
@@ -258,257 +215,6 @@ impl ModalModel {
     /// All torque stations in the order of the inputs.
     pub fn torques(&self) -> impl Iterator<Item = &Row> {
         self.rotors.iter().flat_map(|rotor| &rotor.torques)
-    }
-}
-
-/// Appends the rotor's two blocks to the system.
-fn add_rotor(system: &mut System, rotor: &train::Rotor, modal: ModalRotor, free: bool) -> Rotor {
-    let offset = system.size;
-    let counts = modal.counts();
-    let builder = StationBuilder {
-        modal: &modal,
-        offset,
-        block: system.blocks.len(),
-    };
-    let station = |position: f64| builder.station(position);
-    let bearing = |bearing: &train::Bearing| {
-        let coefficients = bearing.coefficients(rotor.speed);
-        Bearing {
-            station: station(bearing.position),
-            stiffness: coefficients.stiffness,
-            damping: coefficients.damping,
-            follows_speed: free && bearing.depends_on_speed(),
-            bearing: bearing.clone(),
-        }
-    };
-    let added = Rotor {
-        offset,
-        counts,
-        has_rigid_rotation: modal.has_rigid_rotation(),
-        speed: rotor.speed,
-        angle: rotor.angle,
-        gears: rotor
-            .gears
-            .iter()
-            .map(|gear| station(gear.body.position))
-            .collect(),
-        bearings: rotor.bearings.iter().map(bearing).collect(),
-        torques: rotor
-            .torques
-            .iter()
-            .map(|torque| station(torque.position).theta)
-            .collect(),
-        unbalances: rotor
-            .unbalances
-            .iter()
-            .map(|one| modal.lateral_row(one.position))
-            .collect(),
-        probes: rotor
-            .probes
-            .iter()
-            .map(|probe| station(probe.position))
-            .collect(),
-        mean_rotation: Row::new(
-            builder.block + 1,
-            offset + 2 * counts.lateral,
-            modal.mean_rotation.clone(),
-        ),
-        lateral_frequencies: modal.lateral_frequencies.clone(),
-        torsional_frequencies: modal.torsional_frequencies.clone(),
-        modal: modal.clone(),
-    };
-    let torsional_offset = offset + 2 * counts.lateral;
-    system.blocks.push(Block {
-        offset,
-        damping: modal.lateral_damping,
-        stiffness: modal.lateral_stiffness,
-    });
-    system.blocks.push(Block {
-        offset: torsional_offset,
-        damping: modal.torsional_damping,
-        stiffness: modal.torsional_stiffness,
-    });
-    system.size = torsional_offset + counts.torsional;
-    added
-}
-
-/// Makes rows over the coordinates of one rotor, whose lateral block is number `block`.
-struct StationBuilder<'a> {
-    modal: &'a ModalRotor,
-    offset: usize,
-    block: usize,
-}
-
-impl StationBuilder<'_> {
-    fn station(&self, position: f64) -> Station {
-        let phi = self.modal.lateral_row(position);
-        let none = vec![0.0; phi.len()];
-        let torsional_offset = self.offset + 2 * phi.len();
-        let lateral = |values: [&[f64]; 2]| Row::new(self.block, self.offset, values.concat());
-        Station {
-            x: lateral([&phi, &none]),
-            y: lateral([&none, &phi]),
-            theta: Row::new(
-                self.block + 1,
-                torsional_offset,
-                self.modal.torsional_row(position),
-            ),
-        }
-    }
-}
-
-/// A mesh and its couplings on the modal coordinates of its two rotors.
-fn join(system: &mut System, rotors: &[Rotor], mesh: &train::Mesh, free: bool) -> Mesh {
-    let first_coupling = system.couplings.len();
-    let (row, rotation_row) = mesh_rows(rotors, mesh.gears, &mesh.line);
-    let both = |row: &Row| Coupling {
-        row: row.clone(),
-        column: row.clone(),
-    };
-    match (mesh.torque_coupling, mesh.backlash) {
-        (TorqueCoupling::AsPrinted, _) => {
-            let mut lateral = row.clone();
-            lateral.add(-1.0, &rotation_row);
-            system.couplings.push(Coupling {
-                row: row.clone(),
-                column: lateral,
-            });
-            system.couplings.push(both(&rotation_row));
-        }
-        (TorqueCoupling::Consistent, None) => system.couplings.push(both(&row)),
-        (TorqueCoupling::Consistent, Some(_)) => {
-            let (back, _) = mesh_rows(rotors, mesh.gears, &mesh.line.opposite_flank());
-            system.couplings.push(both(&row));
-            system.couplings.push(both(&back));
-        }
-    }
-    let turning = free.then(|| {
-        let gear = mesh.gears[0];
-        system.couplings.push(Coupling {
-            row: rotors[gear.rotor].gears[gear.gear].theta.clone(),
-            column: Row::default(),
-        });
-        system.couplings.len() - 1
-    });
-    let joined = Mesh {
-        gears: mesh.gears,
-        row,
-        rotation_row,
-        line: mesh.line,
-        torque_coupling: mesh.torque_coupling,
-        damping: mesh.damping,
-        law: mesh.stiffness.clone(),
-        factor: mesh.stiffness_factor,
-        error: mesh.transmission_error.clone(),
-        backlash: mesh.backlash,
-        start_phase: mesh.start_phase,
-        pitches: mesh.pitches,
-        phase_rate: mesh.phase_rate,
-        turning,
-        first_coupling,
-        first_law: system.laws,
-    };
-    system.laws += joined.law_count();
-    joined
-}
-
-/// delta as a row over the modal coordinates, and the part of it that comes from rotations.
-fn mesh_rows(rotors: &[Rotor], gears: [GearAddress; 2], line: &LineOfAction) -> (Row, Row) {
-    let (mut row, mut rotation_row) = (Row::default(), Row::default());
-    for (gear, gradient) in gears.iter().zip(line.gradient()) {
-        let station = &rotors[gear.rotor].gears[gear.gear];
-        let GearMotion { x, y, theta } = gradient;
-        row.add(x, &station.x);
-        row.add(y, &station.y);
-        row.add(theta, &station.theta);
-        rotation_row.add(theta, &station.theta);
-    }
-    (row, rotation_row)
-}
-
-/// Two couplings for every bearing with a radial force.
-fn add_radial_bearings(system: &mut System, rotors: &[Rotor]) -> Vec<RadialBearing> {
-    let mut radial = Vec::new();
-    let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
-    for (input, bearing) in bearings.enumerate() {
-        if let Some(force) = bearing.bearing.nonlinear {
-            radial.push(RadialBearing {
-                input,
-                force,
-                first_coupling: system.couplings.len(),
-                law: system.laws,
-            });
-            for row in [&bearing.station.x, &bearing.station.y] {
-                system.couplings.push(Coupling {
-                    row: row.clone(),
-                    column: row.clone(),
-                });
-            }
-            system.laws += 1;
-        }
-    }
-    radial
-}
-
-/// The couplings of a rotor that turns freely: two that observe, and one on every lateral coordinate.
-fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::Rotor) -> Spin {
-    let modal = &rotors[index];
-    let (n, torsional) = (modal.counts.lateral, 2 * index + 1);
-    let rigid = modal.offset + 2 * n;
-    let rotation = modal.mean_rotation.entry(rigid);
-    let torques = system
-        .couplings
-        .iter()
-        .enumerate()
-        .map(|(coupling, data)| (coupling, data.column.entry(rigid)))
-        .filter(|&(_, entry)| entry != 0.0)
-        .collect();
-    let drag = &system.blocks[torsional].damping;
-    let drag = Row::new(torsional, rigid, drag.row(0).iter().copied().collect());
-    let turn = system.couplings.len();
-    for row in [modal.mean_rotation.clone(), drag] {
-        system.couplings.push(Coupling {
-            row,
-            column: Row::default(),
-        });
-    }
-    for i in 0..2 * n {
-        let mut unit = vec![0.0; 2 * n];
-        unit[i] = 1.0;
-        let unit = Row::new(2 * index, modal.offset, unit);
-        system.couplings.push(Coupling {
-            row: unit.clone(),
-            column: unit,
-        });
-    }
-    let unbalances = rotor.unbalances.iter().zip(&modal.unbalances);
-    let inputs_before: usize = rotors[..index]
-        .iter()
-        .map(|rotor| rotor.bearings.len())
-        .sum();
-    let bearings = rotor.bearings.iter().enumerate();
-    Spin {
-        rotor: index,
-        turn,
-        drag: turn + 1,
-        first: turn + 2,
-        n,
-        rigid,
-        rotation,
-        torques,
-        angle: rotor.angle,
-        gyroscopic: modal.modal.gyroscopic().clone(),
-        unbalances: unbalances
-            .map(|(one, shape)| (shape.clone(), one.moment, one.phase))
-            .collect(),
-        bows: modal.modal.bows.clone(),
-        bearings: bearings
-            .filter(|(_, bearing)| bearing.depends_on_speed())
-            .map(|(number, bearing)| {
-                let shape = modal.modal.lateral_row(bearing.position);
-                (shape, inputs_before + number, bearing.clone())
-            })
-            .collect(),
     }
 }
 

@@ -92,6 +92,20 @@ pub fn print_meshes(inspection: &Inspection) {
             modal.damping
         );
     }
+    for mesh in &train.meshes {
+        if let Some(norm) = iso_stiffness(mesh) {
+            println!(
+                "  {}: ISO 6336-1 gives {norm:.6e} N/m for these teeth (c_gamma x face width)",
+                mesh.name
+            );
+        }
+    }
+}
+
+/// c_gamma x face width of ISO 6336-1 [N/m], for comparison where the stiffness follows from tooth geometry.
+pub fn iso_stiffness(mesh: &geartrain::train::Mesh) -> Option<f64> {
+    let pair = mesh.stiffness.spur_pair()?;
+    Some(mesh.stiffness_factor * pair.iso6336().mesh * pair.face_width)
 }
 
 /// Natural vibrations of the coupled train in the range of interest, at speed and over speed.

@@ -6,6 +6,7 @@ use geartrain::analysis::{
 use geartrain::model::Rotor;
 use serde_json::{Value, json};
 
+use super::frequencies::iso_stiffness;
 use super::{BasisReport, Inspection, kind, whirl};
 
 /// Everything as one object.
@@ -30,6 +31,7 @@ pub fn report(inspection: &Inspection) -> Value {
             "gears": mesh.gears.map(|gear| train.gear_name(gear)),
             "frequency": modal.frequency(),
             "mean_stiffness": modal.mean_stiffness(),
+            "iso_6336_stiffness": iso_stiffness(mesh),
             "damping": modal.damping,
         })
     };

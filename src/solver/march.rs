@@ -12,7 +12,7 @@
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
 /// After this many steps of one call their average length must be useful [s]: no machine vibrates in the GHz.
-const PATIENCE: u64 = 1_000_000;
+const PATIENCE: u64 = 50_000;
 const SMALLEST_USEFUL_STEP: f64 = 1e-11;
 /// No call takes more steps: some minutes of work.
 const MOST_STEPS: u64 = 100_000_000;

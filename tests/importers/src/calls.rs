@@ -272,7 +272,7 @@ unsafe fn run_on_state(
         if with.states && !component.is_null() && name != "fmi2GetFMUstate" {
             assert_eq!((f.get_state)(component, &raw mut state), Status::Ok);
         }
-        if with.serialization && !component.is_null() && name != "fmi2SerializedFMUstateSize" {
+        if with.serialization && !state.is_null() && name != "fmi2SerializedFMUstateSize" {
             assert_eq!(
                 (f.serialized_size)(component, state, &raw mut size),
                 Status::Ok

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::{self, SolverChoice, Start};
 use crate::model::{
-    Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium, equilibrium_change,
+    Course, Excitation, Inputs, ModalModel, Motion, NoEquilibrium, equilibrium, equilibrium_change,
 };
-use crate::solver::{Counts, Integrator, State, StepError};
+use crate::solver::{Counts, Integrator, Ramp, State, StepError};
 
 /// A running simulation.
 #[derive(Debug, Clone)]
@@ -18,8 +18,8 @@ pub struct Simulation {
     model: ModalModel,
     state: State,
     inputs: Inputs,
-    /// Generalized load of the inputs during a step.
-    held: Vec<f64>,
+    /// What the inputs exert in a step.
+    loads: Vec<Ramp>,
     solver: Integrator,
     tolerance: f64,
 }
@@ -60,7 +60,7 @@ impl Simulation {
         let zeros = || vec![0.0; model.system.size];
         let state = solver.state_at(&model.system, 0.0, zeros(), zeros());
         Simulation {
-            held: zeros(),
+            loads: vec![Ramp::default(); model.system.loads.len()],
             state,
             inputs,
             solver,
@@ -71,16 +71,37 @@ impl Simulation {
 
     /// Integrates to exactly `time` with the inputs held. After an error the simulation is as before.
     pub fn advance_to(&mut self, time: f64) -> Result<(), StepError> {
-        self.inputs.load_into(&self.model, &mut self.held);
-        let excitation = Excitation::new(&self.model, &self.inputs, &self.held);
+        self.advance_along(time, None)
+    }
+
+    /// Integrates to exactly `time` with the inputs changing by `rate` per second, where given, from their values now to those
+    /// that they have afterwards. After an error the simulation is as before.
+    pub fn advance_along(&mut self, time: f64, rate: Option<&Inputs>) -> Result<(), StepError> {
+        let since = self.state.time;
+        let course = Course {
+            first: &self.inputs,
+            rate,
+            since,
+        };
+        course.loads_into(&self.model, &mut self.loads);
+        let excitation = Excitation::new(&self.model, course, &self.loads);
         let system = &self.model.system;
         self.solver
-            .advance_to(system, &excitation, &mut self.state, time, self.tolerance)
+            .advance_to(system, &excitation, &mut self.state, time, self.tolerance)?;
+        if let Some(rate) = rate {
+            self.inputs.add_change(rate, time - since);
+        }
+        Ok(())
     }
 
     /// The inputs that hold from now on, to be changed.
     pub fn inputs_mut(&mut self) -> &mut Inputs {
         &mut self.inputs
+    }
+
+    /// The inputs as they are now.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 
     /// What the outside sees now.
@@ -95,9 +116,14 @@ impl Simulation {
     /// q'' under the inputs as they are now.
     pub fn acceleration(&self) -> Vec<f64> {
         let system = &self.model.system;
-        let mut held = vec![0.0; system.size];
-        self.inputs.load_into(&self.model, &mut held);
-        let excitation = Excitation::new(&self.model, &self.inputs, &held);
+        let course = Course {
+            first: &self.inputs,
+            rate: None,
+            since: self.state.time,
+        };
+        let mut loads = vec![Ramp::default(); system.loads.len()];
+        course.loads_into(&self.model, &mut loads);
+        let excitation = Excitation::new(&self.model, course, &loads);
         system.acceleration(&excitation, &self.state)
     }
 
@@ -142,9 +168,8 @@ impl Simulation {
     /// gives `false` and changes nothing.
     #[must_use]
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        let same_inputs = snapshot.inputs.torques.len() == self.inputs.torques.len()
-            && snapshot.inputs.bases.len() == self.inputs.bases.len();
-        if !(same_inputs && snapshot.state.is_like(&self.state)) {
+        let fits = snapshot.inputs.is_like(&self.inputs) && snapshot.inputs.is_finite();
+        if !(fits && snapshot.state.is_like(&self.state)) {
             return false;
         }
         self.state.copy_from(&snapshot.state);

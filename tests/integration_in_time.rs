@@ -11,6 +11,7 @@ use geartrain::model::{BaseMotion, Inputs, ModalModel};
 use geartrain::simulation::Simulation;
 use geartrain::solver::{Row, State};
 use nalgebra::{DMatrix, DVector};
+use support::run::held_load;
 use support::{
     assembled, case_four, compound, file_inputs, gear_pair, rms, rms_difference, set_going, started,
 };
@@ -196,9 +197,7 @@ fn gearbox_vibration_response_settles_on_the_analytic_steady_state() {
                 torques: vec![0.0; 2],
                 bases: vec![base; model.bearings().count()],
             };
-            let mut load = vec![0.0; model.system.size];
-            inputs.load_into(&model, &mut load);
-            load
+            held_load(&model, &inputs)
         },
     );
 }
@@ -227,8 +226,7 @@ fn rectangular_stiffness_agrees_with_the_piecewise_matrix_exponential() {
     let inputs = file_inputs(&text);
     let mut simulation = set_going(model.clone(), inputs.clone(), Start::Rest, 1e-7);
     let n = model.system.size;
-    let mut load = vec![0.0; n];
-    inputs.load_into(&model, &mut load);
+    let load = held_load(&model, &inputs);
 
     // x' = A x + f on each piece, with a constant state for f: [q, v, 1].
     let (stiffness, damping) = model.mean_matrices();

@@ -5,9 +5,12 @@
 mod support;
 
 use geartrain::interface::{Causality, Interface, Quantity};
-use geartrain::slave::{Experiment, Slave};
-use geartrain::train::load;
-use support::{assembled, case_four, three_stage, valid};
+use geartrain::slave::Slave;
+use support::slave::{initializing, read, references, stepping};
+use support::{case_four, three_stage};
+
+/// Tolerance of the runs: differences show the solution, not its errors.
+const TIGHT: f64 = 1e-10;
 
 /// Free spin, contact that parts, a radial bearing, transmission error: everything that changes outputs.
 fn everything() -> String {
@@ -37,35 +40,6 @@ fn models() -> [String; 2] {
         case_four(),
         format!("{}{error}\n{}", &head[..at], &head[at..]),
     ]
-}
-
-/// A slave in initialization mode, with its variables.
-fn initializing(text: &str) -> (Slave, Interface) {
-    let loaded = load(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
-    let interface = Interface::of(&loaded.config, &valid(text).train, &assembled(text));
-    let mut slave = Slave::new(&loaded.config.to_bytes()).unwrap();
-    let experiment = Experiment {
-        tolerance: Some(1e-10),
-        start: 0.0,
-        stop: None,
-    };
-    slave.setup_experiment(experiment).unwrap();
-    slave.enter_initialization().unwrap();
-    (slave, interface)
-}
-
-fn references(interface: &Interface, causality: Causality) -> Vec<u32> {
-    let numbered = interface.variables.iter().enumerate();
-    numbered
-        .filter(|(_, variable)| variable.causality() == causality)
-        .map(|(index, _)| u32::try_from(index).unwrap())
-        .collect()
-}
-
-fn read(slave: &mut Slave, references: &[u32]) -> Vec<f64> {
-    let mut values = vec![0.0; references.len()];
-    slave.get_real(references, &mut values).unwrap();
-    values
 }
 
 /// A step by which an input may change without leaving the neighbourhood.
@@ -122,7 +96,7 @@ fn check_inputs(slave: &mut Slave, interface: &Interface) {
 #[test]
 fn directional_derivatives_are_the_differences_at_the_start_and_later() {
     for text in models() {
-        let (mut slave, interface) = initializing(&text);
+        let (mut slave, interface) = initializing(&text, TIGHT);
         check_inputs(&mut slave, &interface);
         slave.exit_initialization().unwrap();
         slave.do_step(0.0, 3.1e-4).unwrap();
@@ -132,8 +106,7 @@ fn directional_derivatives_are_the_differences_at_the_start_and_later() {
 
 #[test]
 fn forces_of_bearings_on_the_housing_are_stiffness_and_damping_exactly() {
-    let (mut slave, interface) = initializing(&case_four());
-    slave.exit_initialization().unwrap();
+    let (mut slave, interface) = stepping(&case_four(), TIGHT);
     let named = |name: &str| {
         let place = interface.variables.iter().position(|one| one.name == name);
         u32::try_from(place.unwrap()).unwrap()
@@ -149,17 +122,37 @@ fn forces_of_bearings_on_the_housing_are_stiffness_and_damping_exactly() {
     }
 }
 
+/// Lets every input change so fast that it passes [`small`] in 1e-4 s.
+fn let_inputs_change(slave: &mut Slave, interface: &Interface) {
+    let inputs = references(interface, Causality::Input);
+    let rate = |&input: &u32| 1e4 * small(interface.variables[input as usize].quantity);
+    let rates: Vec<f64> = inputs.iter().map(rate).collect();
+    let orders = vec![1; inputs.len()];
+    slave
+        .set_input_derivatives(&inputs, &orders, &rates)
+        .unwrap();
+}
+
 #[test]
 fn output_derivatives_are_the_differences_along_time() {
-    for text in models() {
-        let (mut slave, interface) = initializing(&text);
-        slave.exit_initialization().unwrap();
+    for (text, inputs_change) in models()
+        .iter()
+        .flat_map(|text| [(text, false), (text, true)])
+    {
+        let (mut slave, interface) = stepping(text, TIGHT);
         let outputs = references(&interface, Causality::Output);
+        let prepare = |slave: &mut Slave| {
+            if inputs_change {
+                let_inputs_change(slave, &interface);
+            }
+        };
         // A time at which no law is near its ends.
         let (time, step) = (3.13e-4, 1e-8);
         slave.do_step(0.0, time - step).unwrap();
         let before = read(&mut slave, &outputs);
+        prepare(&mut slave);
         slave.do_step(time - step, step).unwrap();
+        prepare(&mut slave);
         let mut found = vec![0.0; outputs.len()];
         let orders = vec![1; outputs.len()];
         slave

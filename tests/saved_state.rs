@@ -5,7 +5,7 @@
 mod support;
 
 use geartrain::slave::{Experiment, SavedState, Slave};
-use geartrain::train::load;
+use support::slave::{born, stepping};
 use support::{case_four, three_stage};
 
 /// Contact losses, back flanks, changing speed: every kind of memory a solution can have.
@@ -29,22 +29,8 @@ fn models() -> [String; 4] {
     ]
 }
 
-fn born(text: &str) -> Slave {
-    let loaded = load(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
-    Slave::new(&loaded.config.to_bytes()).expect("a packed model is valid")
-}
-
 fn running(text: &str) -> Slave {
-    let mut slave = born(text);
-    let experiment = Experiment {
-        tolerance: Some(1e-4),
-        start: 0.0,
-        stop: None,
-    };
-    slave.setup_experiment(experiment).unwrap();
-    slave.enter_initialization().unwrap();
-    slave.exit_initialization().unwrap();
-    slave
+    stepping(text, 1e-4).0
 }
 
 /// The bits of all variables after each of the next steps.

@@ -66,7 +66,8 @@ fn usage(html: &mut Xml, config: &Config) -> io::Result<()> {
          forces of the rotor on the gearbox. Angles, torques and speeds are positive about +z."
             .to_string(),
         format!(
-            "Any communication step works; inputs are held over a step, so that the step decides how well \
+            "Any communication step works; inputs are held over a step, or change linearly with \
+             fmi2SetRealInputDerivatives, so that the step decides how well \
              a changing input is seen ({} s is suggested). The slave takes its own steps inside, such that \
              the RMS error of every mesh force stays within simulation.tolerance = {} of its RMS.",
             simulation.step_size, simulation.tolerance

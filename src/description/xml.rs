@@ -48,6 +48,7 @@ fn co_simulation(xml: &mut Xml, config: &Config) -> io::Result<()> {
         ("modelIdentifier", config.name.as_str()),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canNotUseMemoryManagementFunctions", "true"),
+        ("canInterpolateInputs", "true"),
         ("maxOutputDerivativeOrder", order.as_str()),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),

@@ -16,6 +16,9 @@ use crate::train::{GearAddress, GearTrain};
 pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
 pub use unit::{BaseUnit, DisplayUnit, Unit};
 
+/// The highest order of time derivatives of inputs: they change linearly in a step.
+pub const INPUT_DERIVATIVE_ORDER: i32 = 1;
+
 /// The highest order of time derivatives of outputs: [`Quantity::change`].
 pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
 

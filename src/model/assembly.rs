@@ -3,7 +3,7 @@
 //! Couplings stand in the order meshes, radial bearings, free rotations; the laws of [`super::Excitation`] find theirs by
 //! the number of the first one.
 
-use super::inputs::SupportVibration;
+use super::inputs::{self, SupportVibration};
 use super::radial::RadialBearing;
 use super::spin::Spin;
 use super::{Bearing, Mesh, ModalModel, Rotor, Station, excitation, monitors};
@@ -44,6 +44,7 @@ impl ModalModel {
                 harmonics.extend(excitation::rotating_load(rotor, &rotors[index], bows));
             }
         }
+        system.loads = inputs::columns(&rotors);
         system.slow = spins.iter().map(|spin| rotors[spin.rotor].speed).collect();
         harmonics.extend(vibration.harmonic(&rotors, system.size));
         system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
@@ -254,13 +255,12 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
     let (n, torsional) = (modal.counts.lateral, 2 * index + 1);
     let rigid = modal.offset + 2 * n;
     let rotation = modal.mean_rotation.entry(rigid);
-    let torques = system
-        .couplings
-        .iter()
-        .enumerate()
-        .map(|(coupling, data)| (coupling, data.column.entry(rigid)))
-        .filter(|&(_, entry)| entry != 0.0)
-        .collect();
+    let entries = |columns: &mut dyn Iterator<Item = &Row>| -> Vec<(usize, f64)> {
+        let numbered = columns.map(|column| column.entry(rigid)).enumerate();
+        numbered.filter(|&(_, entry)| entry != 0.0).collect()
+    };
+    let torques = entries(&mut system.couplings.iter().map(|coupling| &coupling.column));
+    let loads = entries(&mut inputs::columns(rotors).iter());
     let drag = &system.blocks[torsional].damping;
     let drag = Row::new(torsional, rigid, drag.row(0).iter().copied().collect());
     let turn = system.couplings.len();
@@ -294,6 +294,7 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
         rigid,
         rotation,
         torques,
+        loads,
         angle: rotor.angle,
         gyroscopic: modal.modal.gyroscopic().clone(),
         unbalances: unbalances

@@ -1,7 +1,7 @@
 //! What drives the gear train in time: the laws of meshes, bearings and free rotations, in the words of the solver.
 //!
 //! ```text
-//!   f(t) = held inputs + sum over harmonics of c cos(w t + phi) + s sin(w t + phi)
+//!   f(t) = inputs + sum over harmonics of c cos(w t + phi) + s sin(w t + phi)
 //!   unbalance   F_x = m e Om^2 cos(phi + d),  F_y = m e Om^2 sin(phi + d),   phi = phi_0 + Om t
 //!   bow         Phi'K_s r cos(phi + psi),     Phi'K_s r sin(phi + psi)
 //! ```
@@ -9,35 +9,37 @@
 //! In free spin unbalance and bow follow the state instead ([`super::spin`]).
 
 use super::radial::RadialBearing;
-use super::{BaseMotion, Inputs, ModalModel, Rotor};
+use super::{BaseMotion, Course, ModalModel, Rotor};
 use crate::rotor::BowLoad;
-use crate::solver::{Block, Forcing, Harmonic, Instant, Piece, Spring};
+use crate::solver::{Block, Forcing, Harmonic, Instant, Piece, Ramp, Spring};
 use crate::train;
 
 use super::spin::Spin;
 
-/// The forcing of a model under given inputs.
+/// The forcing of a model under a course of its inputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Excitation<'a> {
     model: &'a ModalModel,
-    inputs: &'a Inputs,
-    /// The part of f that the inputs hold.
-    held: &'a [f64],
+    course: Course<'a>,
+    /// What the inputs exert along the system's columns.
+    loads: &'a [Ramp],
 }
 
 impl<'a> Excitation<'a> {
-    /// The forcing of `model` under `inputs`, whose load is `held` (see [`Inputs::load_into`]).
-    pub fn new(model: &'a ModalModel, inputs: &'a Inputs, held: &'a [f64]) -> Excitation<'a> {
+    /// The forcing of `model` under inputs, which exert `loads` (see [`Course::loads_into`]).
+    pub fn new(model: &'a ModalModel, course: Course<'a>, loads: &'a [Ramp]) -> Excitation<'a> {
         Excitation {
             model,
-            inputs,
-            held,
+            course,
+            loads,
         }
     }
 
     /// Motion of the gearbox at a bearing.
     fn base(&self, input: usize, time: f64) -> BaseMotion {
-        self.inputs.bases[input].plus(&self.model.vibration.motion(time))
+        self.course
+            .base(input, time)
+            .plus(&self.model.vibration.motion(time))
     }
 
     /// The bearing whose law has this number.
@@ -85,8 +87,12 @@ pub(super) fn rotating_load(
 }
 
 impl Forcing for Excitation<'_> {
-    fn held(&self) -> &[f64] {
-        self.held
+    fn loads(&self) -> &[Ramp] {
+        self.loads
+    }
+
+    fn since(&self) -> f64 {
+        self.course.since
     }
 
     fn harmonics(&self) -> &[Harmonic] {
@@ -120,7 +126,8 @@ impl Forcing for Excitation<'_> {
         }
         for spin in &self.model.spins {
             let base = |input| self.base(input, at.time);
-            spin.forces_into(at, self.held, base, forces);
+            let load = |number: usize| self.loads[number].after(at.time - self.course.since);
+            spin.forces_into(at, load, base, forces);
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   f = sum over torques of T w_th + sum over bearings of w' (K u_b + C u_b')
+//!   u(t) = first + (t - since) rate                             while a call lasts: held, or with input derivatives
 //!   gearbox vibration  x_b = a_x sin(w t),  y_b = a_y sin(w t + psi)    at every bearing
 //! ```
 
@@ -11,9 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Bearing, ModalModel, Rotor};
 use crate::config::{GearboxVibration, Planar};
-use crate::solver::Harmonic;
+use crate::solver::{Harmonic, Ramp, Row};
 
-/// Everything a master sets while the simulation runs, held between communication points.
+/// Everything a master sets while the simulation runs, or how it changes per second.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     /// External torques [N m], in the order of [`ModalModel::torques`].
@@ -29,6 +30,17 @@ pub struct BaseMotion {
     pub displacement: [f64; 2],
     /// Velocity in x and y [m/s].
     pub velocity: [f64; 2],
+}
+
+/// The inputs while a call lasts: first + (t - since) rate.
+#[derive(Debug, Clone, Copy)]
+pub struct Course<'a> {
+    /// The inputs at the start of the call.
+    pub first: &'a Inputs,
+    /// Their changes per second; `None` where they are held.
+    pub rate: Option<&'a Inputs>,
+    /// The start of the call [s].
+    pub since: f64,
 }
 
 /// The sinusoidal motion of all supports.
@@ -49,18 +61,43 @@ impl Inputs {
         }
     }
 
-    /// The generalized load of the inputs: overwrites `load`. Where bearings follow a free speed, the motion of the
-    /// gearbox acts through [`super::Excitation`] instead.
-    pub fn load_into(&self, model: &ModalModel, load: &mut [f64]) {
-        load.fill(0.0);
-        for (row, &torque) in model.torques().zip(&self.torques) {
-            row.add_to(torque, load);
+    /// Adds what changes in `elapsed` seconds.
+    pub fn add_change(&mut self, rate: &Inputs, elapsed: f64) {
+        for (torque, rate) in self.torques.iter_mut().zip(&rate.torques) {
+            *torque += elapsed * rate;
         }
-        for (bearing, base) in model.bearings().zip(&self.bases) {
-            if !bearing.follows_speed {
-                bearing.base_load(base, load);
+        for (base, rate) in self.bases.iter_mut().zip(&rate.bases) {
+            *base = base.plus(&rate.times(elapsed));
+        }
+    }
+
+    /// Whether there are as many inputs of every kind in both.
+    pub fn is_like(&self, other: &Inputs) -> bool {
+        self.torques.len() == other.torques.len() && self.bases.len() == other.bases.len()
+    }
+
+    /// Whether all of them are numbers.
+    pub fn is_finite(&self) -> bool {
+        let of_bases = self.bases.iter();
+        let of_bases = of_bases.flat_map(|base| base.displacement.iter().chain(&base.velocity));
+        self.torques
+            .iter()
+            .chain(of_bases)
+            .all(|value| value.is_finite())
+    }
+
+    /// The values along the columns of [`columns`]. Where bearings follow a free speed, the motion of the gearbox acts
+    /// through [`super::Excitation`] instead.
+    fn exerted(&self, model: &ModalModel) -> impl Iterator<Item = f64> {
+        let bearings = model.bearings().zip(&self.bases);
+        let forces = bearings.flat_map(|(bearing, base)| {
+            if bearing.follows_speed {
+                [0.0; 2]
+            } else {
+                bearing.base_force(base)
             }
-        }
+        });
+        self.torques.iter().copied().chain(forces)
     }
 
     /// The generalized load of torques and gearbox displacements.
@@ -78,6 +115,37 @@ impl Inputs {
         }
         load
     }
+}
+
+impl Course<'_> {
+    /// Overwrites `loads` with what the inputs exert along [`crate::solver::System::loads`].
+    pub fn loads_into(&self, model: &ModalModel, loads: &mut [Ramp]) {
+        for (load, first) in loads.iter_mut().zip(self.first.exerted(model)) {
+            *load = Ramp { first, rate: 0.0 };
+        }
+        if let Some(rate) = self.rate {
+            for (load, rate) in loads.iter_mut().zip(rate.exerted(model)) {
+                load.rate = rate;
+            }
+        }
+    }
+
+    /// Motion of the gearbox at a bearing.
+    pub(super) fn base(&self, input: usize, time: f64) -> BaseMotion {
+        let first = self.first.bases[input];
+        match self.rate {
+            None => first,
+            Some(rate) => first.plus(&rate.bases[input].times(time - self.since)),
+        }
+    }
+}
+
+/// The columns along which the inputs act: external torques, then x and y of every bearing.
+pub(super) fn columns(rotors: &[Rotor]) -> Vec<Row> {
+    let torques = rotors.iter().flat_map(|rotor| &rotor.torques);
+    let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
+    let of_bearings = bearings.flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
+    torques.chain(of_bearings).cloned().collect()
 }
 
 impl BaseMotion {
@@ -100,12 +168,18 @@ impl BaseMotion {
 }
 
 impl Bearing {
-    /// load += w' (K u_b + C u_b').
-    fn base_load(&self, base: &BaseMotion, load: &mut [f64]) {
+    /// K u_b + C u_b'.
+    fn base_force(&self, base: &BaseMotion) -> [f64; 2] {
         let spring = product(&self.stiffness, base.displacement);
         let damper = product(&self.damping, base.velocity);
-        self.station.x.add_to(spring[0] + damper[0], load);
-        self.station.y.add_to(spring[1] + damper[1], load);
+        [spring[0] + damper[0], spring[1] + damper[1]]
+    }
+
+    /// load += w' (K u_b + C u_b').
+    fn base_load(&self, base: &BaseMotion, load: &mut [f64]) {
+        let [x, y] = self.base_force(base);
+        self.station.x.add_to(x, load);
+        self.station.y.add_to(y, load);
     }
 }
 

@@ -40,7 +40,7 @@ pub use change::Change;
 pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
-pub use inputs::{BaseMotion, Inputs};
+pub use inputs::{BaseMotion, Course, Inputs};
 pub use motion::Motion;
 pub use radial::RadialBearing;
 

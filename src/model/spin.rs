@@ -42,6 +42,8 @@ pub(super) struct Spin {
     pub(super) rotation: f64,
     /// How the forces of other couplings act on the rigid coordinate.
     pub(super) torques: Vec<(usize, f64)>,
+    /// How the loads from outside act on it.
+    pub(super) loads: Vec<(usize, f64)>,
     /// phi_0 [rad].
     pub(super) angle: f64,
     /// Phi'G Phi.
@@ -60,12 +62,12 @@ impl Spin {
         (now - used).abs() > STALE.1.max(STALE.0 * used.abs())
     }
 
-    /// Overwrites the forces of the rotor's couplings; those of meshes must be known. `held` is the load of the
-    /// inputs, `base` gives the motion of the gearbox at a bearing.
+    /// Overwrites the forces of the rotor's couplings; those of meshes must be known. `load` gives a load from
+    /// outside, `base` the motion of the gearbox at a bearing.
     pub(super) fn forces_into(
         &self,
         at: Instant<'_>,
-        held: &[f64],
+        load: impl Fn(usize) -> f64,
         base: impl Fn(usize) -> BaseMotion,
         forces: &mut [f64],
     ) {
@@ -75,7 +77,12 @@ impl Spin {
             .iter()
             .map(|&(coupling, entry)| entry * forces[coupling])
             .sum();
-        let acceleration = self.rotation * (held[self.rigid] - mesh_load - at.rate[self.drag]);
+        let drive: f64 = self
+            .loads
+            .iter()
+            .map(|&(number, entry)| entry * load(number))
+            .sum();
+        let acceleration = self.rotation * (drive - mesh_load - at.rate[self.drag]);
         (forces[self.turn], forces[self.drag]) = (0.0, 0.0);
 
         let lateral = self.first..self.first + 2 * self.n;
@@ -114,7 +121,7 @@ impl Spin {
             let now = bearing.coefficients(speed);
             let used = bearing.coefficients(at.slow[self.rotor]);
             let base = base(*input);
-            // The block holds K(Om_0) u + C(Om_0) u'; the gearbox's motion is not among the held loads.
+            // The block holds K(Om_0) u + C(Om_0) u'; the gearbox's motion is not among the loads from outside.
             let relative = |shaft: &[f64]| dot(shape, shaft);
             let displacement = [relative(x), relative(y)];
             let velocity = [relative(vx), relative(vy)];

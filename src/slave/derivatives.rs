@@ -1,8 +1,10 @@
-//! Derivatives of the outputs: along the inputs, and along time.
+//! Derivatives: of the outputs along the inputs and along time, and of the inputs along time.
 
 use super::{Error, LifeCycle, Slave};
-use crate::interface::{Causality, OUTPUT_DERIVATIVE_ORDER, Quantity, Variable};
-use crate::model::{BaseMotion, Change, Inputs};
+use crate::interface::{
+    Causality, INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER, Quantity, Variable,
+};
+use crate::model::{Change, Inputs};
 
 impl Slave {
     /// fmi2GetDirectionalDerivative: overwrites `result`, one number per unknown. In initialization mode the static
@@ -17,10 +19,7 @@ impl Slave {
             Causality::Output | Causality::Local => None,
             _ => Some("is no output"),
         })?;
-        let knowns = self.quantities(knowns, |variable| match variable.causality() {
-            Causality::Input => None,
-            _ => Some("is no input"),
-        })?;
+        let knowns = self.inputs_among(knowns)?;
         let mut direction = self.no_inputs();
         for (known, &seed) in knowns.iter().zip(seed) {
             if !seed.is_finite() {
@@ -65,15 +64,8 @@ impl Slave {
             Causality::Output | Causality::Local => None,
             _ => Some("is no output"),
         })?;
-        if let Some(order) = orders
-            .iter()
-            .find(|&&order| order != OUTPUT_DERIVATIVE_ORDER)
-        {
-            return Err(Error::new(format!(
-                "the order of an output derivative must be {OUTPUT_DERIVATIVE_ORDER}, found {order}"
-            )));
-        }
-        let still = self.no_inputs();
+        check_orders(orders, OUTPUT_DERIVATIVE_ORDER, "an output")?;
+        let rate = self.rate.clone().unwrap_or_else(|| self.no_inputs());
         let simulation = self.started()?;
         let acceleration = simulation.acceleration();
         let motion = simulation.motion();
@@ -81,13 +73,46 @@ impl Slave {
             motion,
             position: &motion.state.velocity,
             velocity: &acceleration,
-            inputs: &still,
+            inputs: &rate,
             time: 1.0,
         };
         for (output, result) in outputs.iter().zip(result) {
             *result = output.change(&change);
         }
         Ok(())
+    }
+
+    /// fmi2SetRealInputDerivatives: how inputs change per second in the next step, from the values they have at its start. All
+    /// or nothing.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), Error> {
+        let inputs = self.inputs_among(references)?;
+        check_orders(orders, INPUT_DERIVATIVE_ORDER, "an input")?;
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(Error::new(format!(
+                "the derivative of an input must be a finite number, found {value}"
+            )));
+        }
+        let mut rate = self.rate.take().unwrap_or_else(|| self.no_inputs());
+        for (input, &value) in inputs.iter().zip(values) {
+            if let Some(rate) = input.input(&mut rate) {
+                *rate = value;
+            }
+        }
+        self.rate = Some(rate);
+        Ok(())
+    }
+
+    /// What inputs stand for.
+    fn inputs_among(&self, references: &[u32]) -> Result<Vec<Quantity>, Error> {
+        self.quantities(references, |variable| match variable.causality() {
+            Causality::Input => None,
+            _ => Some("is no input"),
+        })
     }
 
     /// What variables stand for; `refuse` says what is wrong with one.
@@ -107,9 +132,16 @@ impl Slave {
     }
 
     fn no_inputs(&self) -> Inputs {
-        Inputs {
-            torques: vec![0.0; self.design.torques.len()],
-            bases: vec![BaseMotion::default(); self.design.bearings],
-        }
+        Inputs::at_rest(vec![0.0; self.design.torques.len()], self.design.bearings)
+    }
+}
+
+/// Refuses orders of derivatives other than the one there is.
+fn check_orders(orders: &[i32], only: i32, of: &str) -> Result<(), Error> {
+    match orders.iter().find(|&&order| order != only) {
+        None => Ok(()),
+        Some(order) => Err(Error::new(format!(
+            "the order of the derivative of {of} must be {only}, found {order}"
+        ))),
     }
 }

@@ -35,6 +35,8 @@ pub struct Slave {
     /// The configuration with the parameters set so far.
     config: Config,
     inputs: Inputs,
+    /// How the inputs change in the next step, when the master says so.
+    rate: Option<Inputs>,
     life_cycle: LifeCycle,
     experiment: Option<Experiment>,
     /// Whether the master set `simulation.tolerance` itself.
@@ -73,6 +75,7 @@ impl Slave {
         Ok(Slave {
             config: design.config.clone(),
             inputs,
+            rate: None,
             life_cycle: LifeCycle::Instantiated,
             experiment: None,
             tolerance_set: false,
@@ -150,6 +153,7 @@ impl Slave {
     pub fn reset(&mut self) {
         self.config.clone_from(&self.design.config);
         self.inputs = Inputs::at_rest(self.design.torques.clone(), self.design.bearings);
+        self.rate = None;
         self.life_cycle = LifeCycle::Instantiated;
         self.experiment = None;
         self.tolerance_set = false;
@@ -189,7 +193,7 @@ impl Slave {
         }
     }
 
-    /// fmi2DoStep: from the communication point `time` to exactly `time + step`.
+    /// fmi2DoStep: from the communication point `time` to exactly `time + step`. Input derivatives hold for this step.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Error> {
         let Some(simulation) = &mut self.simulation else {
             return Err(Error::new("the simulation has not been started"));
@@ -207,6 +211,7 @@ impl Slave {
             )));
         }
         if end <= now {
+            self.rate = None;
             return Ok(()); // shorter than what masters lose by rounding
         }
         let stop = self
@@ -218,12 +223,15 @@ impl Slave {
                 "the step from {time} s by {step} s ends after the stop time {stop} s (start {start} s)"
             )));
         }
-        simulation.advance_to(end).map_err(|error| {
+        if let Err(error) = simulation.advance_along(end, self.rate.as_ref()) {
             self.life_cycle = LifeCycle::Failed;
-            Error::new(format!(
-                "the step from {time} s by {step} s failed: {error}"
-            ))
-        })
+            let step = format!("the step from {time} s by {step} s");
+            return Err(Error::new(format!("{step} failed: {error}")));
+        }
+        if self.rate.take().is_some() {
+            self.inputs.clone_from(simulation.inputs());
+        }
+        Ok(())
     }
 
     /// End of the last successful step [s].

@@ -24,6 +24,7 @@ pub struct SavedState {
     pub(super) parameters: Vec<f64>,
     pub(super) tolerance_set: bool,
     pub(super) inputs: Inputs,
+    pub(super) rate: Option<Inputs>,
     pub(super) experiment: Option<Experiment>,
     pub(super) life_cycle: LifeCycle,
     /// The solution, once it runs.
@@ -32,7 +33,7 @@ pub struct SavedState {
 
 const MAGIC: &[u8; 16] = b"geartrain state\0";
 /// Changes whenever the content of a saved state does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Magic, version, length, checksum.
 const HEADER: usize = 16 + 4 + 8 + 32;
 
@@ -93,6 +94,7 @@ impl Slave {
             parameters,
             tolerance_set: self.tolerance_set,
             inputs: self.inputs.clone(),
+            rate: self.rate.clone(),
             experiment: self.experiment,
             life_cycle: self.life_cycle,
             solution: self
@@ -116,6 +118,7 @@ impl Slave {
         }
         self.config = config;
         self.inputs.clone_from(&saved.inputs);
+        self.rate.clone_from(&saved.rate);
         self.life_cycle = saved.life_cycle;
         self.experiment = saved.experiment;
         self.tolerance_set = saved.tolerance_set;
@@ -124,12 +127,11 @@ impl Slave {
 
     /// Whether a state, which may come from outside, is one of this model.
     pub fn check_fits(&self, saved: &SavedState) -> Result<(), Error> {
-        let numbers = saved.parameters.iter().chain(&saved.inputs.torques);
+        let mut inputs = [&saved.inputs].into_iter().chain(&saved.rate);
         let fits = saved.guid == self.design.guid
             && saved.parameters.len() == self.design.parameters().count()
-            && saved.inputs.torques.len() == self.design.torques.len()
-            && saved.inputs.bases.len() == self.design.bearings
-            && numbers.copied().all(f64::is_finite);
+            && saved.parameters.iter().all(|value| value.is_finite())
+            && inputs.all(|inputs| inputs.is_like(&self.inputs) && inputs.is_finite());
         if fits { Ok(()) } else { Err(misfit()) }
     }
 
@@ -175,6 +177,7 @@ mod tests {
             parameters: vec![1.0, -2.5],
             tolerance_set: true,
             inputs: Inputs::at_rest(vec![3.0], 2),
+            rate: None,
             experiment: None,
             life_cycle: LifeCycle::Instantiated,
             solution: None,

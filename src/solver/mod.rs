@@ -40,6 +40,8 @@ pub struct System {
     pub blocks: Vec<Block>,
     /// The forces between and on the blocks.
     pub couplings: Vec<Coupling>,
+    /// The columns along which the outside loads the coordinates, each within one block.
+    pub loads: Vec<Row>,
     /// Number of laws that have pieces.
     pub laws: usize,
     /// First values of the slow parameters, on which the blocks may depend.
@@ -105,8 +107,10 @@ pub struct Instant<'a> {
 
 /// What varies.
 pub trait Forcing {
-    /// The part of f that is the same throughout a call, one entry per coordinate.
-    fn held(&self) -> &[f64];
+    /// What acts along [`System::loads`].
+    fn loads(&self) -> &[Ramp];
+    /// When these have their first values [s]: the start of the call, at which the state is.
+    fn since(&self) -> f64;
     /// The parts of f that turn with fixed frequencies.
     fn harmonics(&self) -> &[Harmonic];
     /// The first time clearly after `time` at which the piece of some law ends whatever the motion; infinity
@@ -130,8 +134,11 @@ pub trait Forcing {
     fn blocks_into(&self, slow: &[f64], blocks: &mut [Block]);
 
     /// f(t): overwrites `load`, one entry per coordinate.
-    fn load_into(&self, time: f64, load: &mut [f64]) {
-        load.copy_from_slice(self.held());
+    fn load_into(&self, system: &System, time: f64, load: &mut [f64]) {
+        load.fill(0.0);
+        for (column, ramp) in system.loads.iter().zip(self.loads()) {
+            column.add_to(ramp.after(time - self.since()), load);
+        }
         for harmonic in self.harmonics() {
             let (sine, cosine) = libm::sincos(harmonic.angle(time));
             let target = &mut load[harmonic.offset..];
@@ -140,6 +147,15 @@ pub trait Forcing {
             }
         }
     }
+}
+
+/// A load that changes linearly during a call: first + rate (t - since).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Ramp {
+    /// The first value.
+    pub first: f64,
+    /// Change per second.
+    pub rate: f64,
 }
 
 /// A load that turns with a fixed circular frequency: cosine cos(w t + phase) + sine sin(w t + phase).
@@ -255,7 +271,7 @@ impl System {
         forcing.enter(at, 0.5 * (time + inside), &mut pieces);
         forcing.forces_into(at, &pieces, &mut forces);
         let mut acceleration = vec![0.0; self.size];
-        forcing.load_into(*time, &mut acceleration);
+        forcing.load_into(self, *time, &mut acceleration);
         for block in &self.blocks {
             let range = block.range();
             let target = &mut acceleration[range.clone()];
@@ -323,6 +339,13 @@ impl State {
         self.slow.clone_from(&other.slow);
         self.control.copy_from(&other.control);
         copy_tracks(&mut self.tracks, &other.tracks);
+    }
+}
+
+impl Ramp {
+    /// The value after some seconds.
+    pub fn after(self, elapsed: f64) -> f64 {
+        self.first + self.rate * elapsed
     }
 }
 

@@ -131,8 +131,7 @@ fn the_equilibrium_leaves_nothing_but_a_rigid_acceleration() {
         let inputs = support::file_inputs(&text);
         let found = equilibrium(&model, &inputs).unwrap();
         let (stiffness, _) = model.mean_matrices();
-        let mut load = vec![0.0; model.system.size];
-        inputs.load_into(&model, &mut load);
+        let load = support::run::held_load(&model, &inputs);
         let left = DVector::from_vec(load.clone()) - stiffness * DVector::from_vec(found.position);
         let size = DVector::from_vec(load).amax();
         for (rotor, index) in model.rotors.iter().zip(0..) {

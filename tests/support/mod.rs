@@ -6,6 +6,7 @@
 pub mod orbits;
 pub mod parts;
 pub mod run;
+pub mod slave;
 
 use geartrain::config::{self, Start};
 use geartrain::model::{Inputs, ModalModel};

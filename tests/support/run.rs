@@ -1,8 +1,8 @@
 //! A model that moves from any state, by either solver; and one whose motion is known in closed form.
 
 use geartrain::config::SolverChoice;
-use geartrain::model::{Excitation, Inputs, ModalModel, Motion};
-use geartrain::solver::{Counts, Integrator, State};
+use geartrain::model::{Course, Excitation, Inputs, ModalModel, Motion};
+use geartrain::solver::{Counts, Integrator, Ramp, State};
 
 use super::head;
 
@@ -43,17 +43,22 @@ impl Run {
     }
 
     pub fn advance_to(&mut self, time: f64) {
-        let mut held = vec![0.0; self.model.system.size];
-        self.inputs.load_into(&self.model, &mut held);
-        let forcing = Excitation::new(&self.model, &self.inputs, &held);
+        self.advance_along(time, None);
+    }
+
+    /// With inputs that change by `rate` per second from their values now; they keep these afterwards.
+    pub fn advance_along(&mut self, time: f64, rate: Option<&Inputs>) {
+        let system = &self.model.system;
+        let course = Course {
+            first: &self.inputs,
+            rate,
+            since: self.state.time,
+        };
+        let mut loads = vec![Ramp::default(); system.loads.len()];
+        course.loads_into(&self.model, &mut loads);
+        let forcing = Excitation::new(&self.model, course, &loads);
         self.solver
-            .advance_to(
-                &self.model.system,
-                &forcing,
-                &mut self.state,
-                time,
-                self.tolerance,
-            )
+            .advance_to(system, &forcing, &mut self.state, time, self.tolerance)
             .expect("the step can be taken");
     }
 
@@ -68,6 +73,22 @@ impl Run {
     pub fn counts(&self) -> Counts {
         self.solver.counts()
     }
+}
+
+/// The load of held inputs on the coordinates.
+pub fn held_load(model: &ModalModel, inputs: &Inputs) -> Vec<f64> {
+    let course = Course {
+        first: inputs,
+        rate: None,
+        since: 0.0,
+    };
+    let mut loads = vec![Ramp::default(); model.system.loads.len()];
+    course.loads_into(model, &mut loads);
+    let mut load = vec![0.0; model.system.size];
+    for (column, ramp) in model.system.loads.iter().zip(&loads) {
+        column.add_to(ramp.first, &mut load);
+    }
+    load
 }
 
 /// The numbers of [`rigid_pair`].

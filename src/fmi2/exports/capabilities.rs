@@ -1,18 +1,9 @@
-//! Derivatives (FMI 2.0.4, 2.1.9, 4.2.1). Those of inputs are exported, not declared, and refused in words.
+//! Derivatives (FMI 2.0.4, 2.1.9, 4.2.1).
 
 use crate::fmi2::abi::{Component, Integer, Real, Status, ValueReference};
 use crate::fmi2::arguments::{slice, slice_mut};
 use crate::fmi2::guard::call;
-use crate::slave::{Call, Error};
-
-/// Refuses a capability that modelDescription.xml does not declare.
-fn unsupported(component: Component, function: &'static str, needs: Call, flag: &str) -> Status {
-    call(component, function, needs, |_| {
-        Err(Error::new(format!(
-            "not supported: modelDescription.xml does not declare {flag}"
-        )))
-    })
-}
+use crate::slave::Call;
 
 /// How outputs change with inputs.
 ///
@@ -45,17 +36,28 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     })
 }
 
-/// Not supported yet.
+/// How inputs change in the next step.
+///
+/// # Safety
+/// The arrays are as long as announced, unless their length is 0.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi2SetRealInputDerivatives(
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     component: Component,
-    _references: *const ValueReference,
-    _count: usize,
-    _orders: *const Integer,
-    _values: *const Real,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const Integer,
+    values: *const Real,
 ) -> Status {
     let (function, needs) = ("fmi2SetRealInputDerivatives", Call::SetInputDerivatives);
-    unsupported(component, function, needs, "canInterpolateInputs")
+    call(component, function, needs, |instance| {
+        // SAFETY: the caller's promise.
+        let (references, orders) = unsafe { (slice(references, count)?, slice(orders, count)?) };
+        // SAFETY: the caller's promise.
+        let values = unsafe { slice(values, count) }?;
+        instance
+            .slave
+            .set_input_derivatives(references, orders, values)
+    })
 }
 
 /// How outputs change with time.

@@ -3,7 +3,7 @@
 //! Over a step the forces are cubic polynomials through four nodes, F(s) = sum of l_j(s/h) F_j (`polynomials`), and
 //!
 //! ```text
-//!   eta(x h) = eta_0 + x h phi_1(B x h) (B eta_0 + load) - sum over j of f_j(x) F_j
+//!   eta(x h) = eta_0 + x h phi_1(B x h) (B eta_0 + load) + (x h)^2 phi_2(B x h) load' - sum over j of f_j(x) F_j
 //!   f_j(x)   = sum over k of l_jk m_k(x),   m_k(x) = integral of e^(B (x h - s)) (s/h)^k ds b = k! x^(k+1) h phi_(k+1)(B x h) b
 //! ```
 //!
@@ -30,8 +30,12 @@ pub(super) struct Coefficients {
 pub(super) struct PartCoefficients {
     /// h phi_1 of every group, one after the other.
     pub(super) gain: Vec<f64>,
+    /// h^2 phi_2 of every group.
+    pub(super) ramp_gain: Vec<f64>,
     /// Deflections and rates at the points per B eta + load: [`Part::readings`] x 2n.
     pub(super) free: Vec<f64>,
+    /// The same per change of the load.
+    pub(super) ramp: Vec<f64>,
     /// f_j at the end: 2n x actuators, node after node.
     pub(super) columns: [Vec<f64>; NODES],
     /// Deflections and rates at the points per harmonic: readings x harmonics.
@@ -112,7 +116,9 @@ impl PartCoefficients {
         let still = |count: usize| vec![Complex::new(0.0, 0.0); count];
         PartCoefficients {
             gain: zeros(part.groups.iter().map(|group| group.matrix.len()).sum()),
+            ramp_gain: zeros(part.groups.iter().map(|group| group.matrix.len()).sum()),
             free: zeros(part.readings() * states),
+            ramp: zeros(part.readings() * states),
             columns: core::array::from_fn(|_| zeros(states * actuators)),
             turning: still(part.readings() * part.harmonics.len()),
             turning_end: still(states * part.harmonics.len()),
@@ -122,7 +128,7 @@ impl PartCoefficients {
     fn bytes(&self) -> usize {
         let columns: usize = self.columns.iter().map(Vec::len).sum();
         let complex = 2 * (self.turning.len() + self.turning_end.len());
-        (self.gain.len() + self.free.len() + columns + complex) * size_of::<f64>()
+        (2 * (self.gain.len() + self.free.len()) + columns + complex) * size_of::<f64>()
     }
 
     /// The free response and the moments at a point.
@@ -134,27 +140,31 @@ impl PartCoefficients {
         scratch: &mut Scratch,
     ) {
         let states = part.len();
-        let mut gain = self.gain.as_mut_slice();
+        let mut before = 0;
         for group in &part.groups {
             let (first, m) = (group.first, group.matrix.nrows());
             scratch.phi.evaluate(&group.matrix, x * h);
-            let phi_1 = scratch.phi.get(1);
-            if point == END {
-                let (own, rest) = gain.split_at_mut(m * m);
-                own.iter_mut()
-                    .zip(phi_1)
-                    .for_each(|(gain, phi)| *gain = h * phi);
-                gain = rest;
-            }
-            for (what, rows) in part.sensor_rows.iter().enumerate() {
-                for (sensor, row) in rows.column_iter().enumerate() {
-                    let row = &row.as_slice()[first..first + m];
-                    let reading = part.reading(point, what, sensor);
-                    for (j, phi) in phi_1.chunks_exact(m).enumerate() {
-                        self.free[(first + j) * part.readings() + reading] = x * h * dot(row, phi);
+            let responses = [
+                (x * h, 1, &mut self.gain, &mut self.free),
+                (x * h * x * h, 2, &mut self.ramp_gain, &mut self.ramp),
+            ];
+            for (factor, k, gain, seen) in responses {
+                let phi = scratch.phi.get(k);
+                if point == END {
+                    let own = gain[before..before + m * m].iter_mut();
+                    own.zip(phi).for_each(|(gain, phi)| *gain = factor * phi);
+                }
+                for (what, rows) in part.sensor_rows.iter().enumerate() {
+                    for (sensor, row) in rows.column_iter().enumerate() {
+                        let row = &row.as_slice()[first..first + m];
+                        let reading = part.reading(point, what, sensor);
+                        for (j, phi) in phi.chunks_exact(m).enumerate() {
+                            seen[(first + j) * part.readings() + reading] = factor * dot(row, phi);
+                        }
                     }
                 }
             }
+            before += m * m;
             let mut power = h;
             for (k, moments) in scratch.moments.iter_mut().enumerate() {
                 power *= x;

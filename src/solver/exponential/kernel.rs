@@ -34,6 +34,8 @@ pub(super) struct Kernel {
     present_slow: Vec<f64>,
     parts: Vec<Part>,
     motion: Vec<PartMotion>,
+    /// Whether loads from outside change in this call.
+    ramps: bool,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
     pub(super) lengths: Vec<Coefficients>,
@@ -54,6 +56,7 @@ impl Kernel {
             used_slow: system.slow.clone(),
             present_slow: system.slow.clone(),
             motion: parts.iter().map(PartMotion::at_rest).collect(),
+            ramps: false,
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
             next_length: 0,
@@ -69,8 +72,9 @@ impl Kernel {
     pub(super) fn take_over<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) {
         self.follow_slow(task, state);
         for (part, motion) in self.parts.iter().zip(&mut self.motion) {
-            motion.take_over(part, state, task.forcing.held());
+            motion.take_over(part, state, task.forcing.loads());
         }
+        self.ramps = task.forcing.loads().iter().any(|load| load.rate != 0.0);
     }
 
     /// Displacements and velocities from decoupled states.
@@ -119,14 +123,14 @@ impl Kernel {
     }
 
     /// What the couplings see at the points without forces.
-    fn look_ahead(&mut self, index: usize) {
+    fn look_ahead(&mut self, index: usize, elapsed: f64) {
         let sight = &mut self.sight;
         for free in &mut sight.free {
             copy(&sight.start, free);
         }
         let parts = self.parts.iter().zip(&self.lengths[index].parts);
         for ((part, coefficients), motion) in parts.zip(&mut self.motion) {
-            motion.differentiate(part);
+            motion.differentiate(part, elapsed);
             motion.readings.fill(0.0);
             multiply_add(
                 1.0,
@@ -134,6 +138,10 @@ impl Kernel {
                 &motion.derivative,
                 &mut motion.readings,
             );
+            if self.ramps {
+                let (ramp, rate) = (&coefficients.ramp, &motion.load_rate);
+                multiply_add(1.0, ramp, rate, &mut motion.readings);
+            }
             let turning = coefficients.turning.chunks_exact(part.readings().max(1));
             for ((harmonic, _), turning) in part.harmonics.iter().zip(turning) {
                 let angle = sight.angles[*harmonic];
@@ -203,7 +211,7 @@ impl Kernel {
         let sight = &mut self.sight;
         let parts = self.parts.iter().zip(&self.lengths[index].parts);
         for ((part, coefficients), motion) in parts.zip(&mut self.motion) {
-            motion.advance(part, &coefficients.gain);
+            motion.advance(part, coefficients, self.ramps);
             for (node, columns) in coefficients.columns.iter().enumerate() {
                 for (column, &actuator) in columns.chunks_exact(part.len()).zip(&part.actuators) {
                     let force = sight.forces[actuator][node];
@@ -269,7 +277,7 @@ impl Method for Kernel {
             let (sine, cosine) = libm::sincos(harmonic.angle(span.start));
             *angle = Complex::new(cosine, sine);
         }
-        self.look_ahead(index);
+        self.look_ahead(index, span.start - task.forcing.since());
         if !self.sweep(task, &state.slow, span, pieces, index) {
             self.counts.rejected += 1;
             if self.sight.forces.iter().all(|forces| forces[0].is_finite()) {

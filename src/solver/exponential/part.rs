@@ -10,7 +10,8 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use super::super::{Block, Harmonic, State, System};
+use super::super::{Block, Harmonic, Ramp, State, System};
+use super::coefficients::PartCoefficients;
 use super::polynomials::POINTS;
 use crate::linalg::{Group, add_scaled, decouple, multiply_add};
 
@@ -36,6 +37,8 @@ pub(super) struct Part {
     pub(super) actuators: Vec<usize>,
     /// V^-1 [0; b] of these, 2n x actuators.
     pub(super) actuator_columns: DMatrix<f64>,
+    /// The loads from outside that act on the block: number, and V^-1 [0; column].
+    pub(super) loads: Vec<(usize, Vec<f64>)>,
     /// The harmonics that act on the block: number, and V^-1 [0; cosine - i sine].
     pub(super) harmonics: Vec<(usize, Vec<Complex<f64>>)>,
 }
@@ -79,6 +82,12 @@ impl Part {
             |vectors: &[Vec<f64>]| DMatrix::from_fn(n, vectors.len(), |i, j| vectors[j][i]);
         let rows = as_columns(&rows);
         let in_states = |load: &[f64]| input * nalgebra::DVector::from_row_slice(load);
+        let loads = system.loads.iter().map(|column| column.in_block(index));
+        let loads = loads.enumerate().filter_map(|(number, column)| {
+            let column = in_states(&column?);
+            Some((number, column.as_slice().to_vec()))
+        });
+        let loads = loads.collect();
         let harmonics = harmonics
             .iter()
             .map(|(number, cosine, sine)| {
@@ -99,6 +108,7 @@ impl Part {
             inverse,
             sensors,
             actuators,
+            loads,
             harmonics,
         }
     }
@@ -142,8 +152,9 @@ pub(super) struct PartMotion {
     pub(super) states: Vec<f64>,
     /// B eta + load.
     pub(super) derivative: Vec<f64>,
-    /// V^-1 [0; held load].
+    /// The load from outside at the start of the call, and its change per second.
     load: Vec<f64>,
+    pub(super) load_rate: Vec<f64>,
     /// Deflections and rates at the points that the part adds: see [`Part::reading`].
     pub(super) readings: Vec<f64>,
 }
@@ -155,12 +166,13 @@ impl PartMotion {
             states: zeros(),
             derivative: zeros(),
             load: zeros(),
+            load_rate: zeros(),
             readings: vec![0.0; part.readings()],
         }
     }
 
-    /// Decoupled states from displacements and velocities, and the held load in them.
-    pub(super) fn take_over(&mut self, part: &Part, state: &State, held: &[f64]) {
+    /// Decoupled states from displacements and velocities, and the load from outside in them.
+    pub(super) fn take_over(&mut self, part: &Part, state: &State, ramps: &[Ramp]) {
         let (range, n) = (part.coordinates.clone(), part.len() / 2);
         let (per_position, per_velocity) = part.inverse.as_slice().split_at(n * part.len());
         self.states.fill(0.0);
@@ -170,14 +182,16 @@ impl PartMotion {
             &state.position[range.clone()],
             &mut self.states,
         );
-        multiply_add(
-            1.0,
-            per_velocity,
-            &state.velocity[range.clone()],
-            &mut self.states,
-        );
+        multiply_add(1.0, per_velocity, &state.velocity[range], &mut self.states);
         self.load.fill(0.0);
-        multiply_add(1.0, per_velocity, &held[range], &mut self.load);
+        self.load_rate.fill(0.0);
+        for (number, column) in &part.loads {
+            let Ramp { first, rate } = ramps[*number];
+            add_scaled(first, column, &mut self.load);
+            if rate != 0.0 {
+                add_scaled(rate, column, &mut self.load_rate);
+            }
+        }
     }
 
     /// Displacements and velocities from decoupled states.
@@ -193,9 +207,10 @@ impl PartMotion {
         }
     }
 
-    /// B eta + load.
-    pub(super) fn differentiate(&mut self, part: &Part) {
+    /// B eta + load, some seconds after the start of the call.
+    pub(super) fn differentiate(&mut self, part: &Part, elapsed: f64) {
         self.derivative.copy_from_slice(&self.load);
+        add_scaled(elapsed, &self.load_rate, &mut self.derivative);
         for group in &part.groups {
             let range = group.first..group.first + group.matrix.nrows();
             let target = &mut self.derivative[range.clone()];
@@ -203,19 +218,25 @@ impl PartMotion {
         }
     }
 
-    /// eta + h phi_1 (B eta + load): the step without forces. `gain` holds h phi_1 of every group.
-    pub(super) fn advance(&mut self, part: &Part, gain: &[f64]) {
-        let mut gain = gain;
-        for group in &part.groups {
-            let range = group.first..group.first + group.matrix.nrows();
-            let (own, rest) = gain.split_at(group.matrix.len());
-            multiply_add(
-                1.0,
-                own,
-                &self.derivative[range.clone()],
-                &mut self.states[range],
-            );
-            gain = rest;
+    /// eta + h phi_1 (B eta + load) + h^2 phi_2 load': the step without forces.
+    pub(super) fn advance(&mut self, part: &Part, coefficients: &PartCoefficients, ramps: bool) {
+        let PartMotion {
+            states,
+            derivative,
+            load_rate,
+            ..
+        } = self;
+        let mut apply = |mut gain: &[f64], source: &[f64]| {
+            for group in &part.groups {
+                let range = group.first..group.first + group.matrix.nrows();
+                let (own, rest) = gain.split_at(group.matrix.len());
+                multiply_add(1.0, own, &source[range.clone()], &mut states[range]);
+                gain = rest;
+            }
+        };
+        apply(&coefficients.gain, derivative);
+        if ramps {
+            apply(&coefficients.ramp_gain, load_rate);
         }
     }
 }

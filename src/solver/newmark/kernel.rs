@@ -120,7 +120,7 @@ impl Kernel {
         } = task;
         let (time, slow) = state;
         let acceleration = &mut work.acceleration;
-        forcing.load_into(time, acceleration);
+        forcing.load_into(system, time, acceleration);
         for block in &system.blocks {
             let range = block.range();
             let target = &mut acceleration[range.clone()];
@@ -168,7 +168,7 @@ impl Kernel {
         let operators = &self.operators[index];
         let h = operators.step;
         predict(track, h, work);
-        forcing.load_into(span.end, &mut work.load);
+        forcing.load_into(system, span.end, &mut work.load);
         for (block, inverse) in system.blocks.iter().zip(&operators.inverse) {
             let range = block.range();
             let load = &mut work.load[range.clone()];

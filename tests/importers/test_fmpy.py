@@ -120,21 +120,6 @@ def test_gearbox_vibration_from_a_csv_file_is_seen_with_the_delay_of_held_inputs
         assert 0.0 < error < bound, f"{name}: {error:.2e}, lag {lag:.2e}"
 
 
-def test_input_derivatives_take_the_delay_away(three_stage):
-    """The same vibration in x from inputs with derivatives and from the parameters of the FMU, which the solver
-    takes exactly: a chord misses a sine by (w h)^2 / 12 = 1.9e-3 at 1200 Hz and 20 us; held inputs lag by 0.15."""
-    run = dict(stop_time=0.02, output_interval=2e-5, output=["mesh12.force", "stage1.b1.force_x"])
-    table = housing_motion()
-    for name in table.dtype.names:
-        if name.endswith((".y", ".vy")):
-            table[name] = 0.0
-    exact = simulate(three_stage, start_values={"gearbox_vibration.amplitude_x": 25e-6}, **run)
-    driven = simulate(three_stage, input=table, set_input_derivatives=True, **run)
-    for name in run["output"]:
-        error = alternating_error(driven[name], exact[name])
-        assert error < 3e-3, f"{name}: {error:.2e}"
-
-
 def test_parameters_set_by_the_master_act(three_stage):
     names = ["mesh12.stiffness", "stage1.speed", "stage2.speed", "stage1.lateral_frequency[1]"]
     changed = {"mesh12.stiffness_factor": 2.0, "stage1.mean_speed": 100.0, "stage1.b3.stiffness.xx": 4e7}
@@ -203,6 +188,32 @@ def test_outputs_react_to_inputs_without_a_step(three_stage, tmp_path):
     change = instance.getReal([force])[0] - before
     assert abs(change + 1e8 * 1e-6 + 2000.0 * 1e-3) < 1e-9
     instance.freeInstance()
+
+
+def test_input_derivatives_take_the_delay_away(three_stage, tmp_path):
+    """The same vibration in x from inputs with derivatives and from the parameters of the FMU, which the solver
+    takes exactly: a chord misses a sine by (w h)^2 / 12 = 1.9e-3 at 1200 Hz and 20 us, of which the bearing force
+    is the difference to the shaft's motion: three times as much; held inputs lag by 0.15.
+    (FMPy's own set_input_derivatives has room for exactly nine inputs.)"""
+    step, outputs = 2e-5, ["mesh12.force", "stage1.b1.force_x"]
+    exact = simulate(three_stage, start_values={"gearbox_vibration.amplitude_x": 25e-6}, stop_time=0.02,
+                     output_interval=step, output=outputs)
+    table = housing_motion(rate=1 / step)
+    inputs = [name for name in table.dtype.names if name.endswith((".x", ".vx"))]
+    motion = np.column_stack([table[name] for name in inputs])
+    instance, names = slave(three_stage, tmp_path / "fmu")
+    instance.exitInitializationMode()
+    references = [names[name] for name in inputs]
+    driven = [instance.getReal([names[name] for name in outputs])]
+    for index, (now, then) in enumerate(zip(motion[:-1], motion[1:])):
+        instance.setReal(references, list(now))
+        instance.setRealInputDerivatives(references, [1] * len(references), list((then - now) / step))
+        instance.doStep(index * step, step)
+        driven.append(instance.getReal([names[name] for name in outputs]))
+    instance.freeInstance()
+    for name, found, bound in zip(outputs, np.transpose(driven), [3e-3, 1e-2]):
+        error = alternating_error(found, exact[name])
+        assert error < bound, f"{name}: {error:.2e}"
 
 
 def test_reset_is_as_if_new(three_stage, tmp_path):

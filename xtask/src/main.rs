@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a command line talks
 
+mod bench;
 mod demo;
 mod golden;
 mod inspect;
@@ -23,7 +24,9 @@ cargo xtask <command>
   demo                            pack examples/three_stage.toml, run the paper's four cases through
                                   FMPy, write CSV files and pictures to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
-  bench                           wall time per simulated second and steps taken
+  bench [solvers|masters|start]...
+                                  how fast it is: our solvers against others at the same error, a communication
+                                  step through the C interface, starting an instance
   golden                          regenerate modelDescription/modelDescription.xml; review its diff
 ";
 
@@ -35,7 +38,7 @@ fn main() -> ExitCode {
         ["inspect", rest @ ..] => inspect::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),
-        ["bench"] => shell::cargo(&["bench", "--quiet", "--package", "geartrain"]),
+        ["bench", parts @ ..] => bench::command(parts),
         ["golden"] => golden::command(),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");

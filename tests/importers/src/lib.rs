@@ -14,7 +14,7 @@
 
 pub mod calls;
 pub mod fmu;
-pub mod functions;
+pub use fmi2_functions as functions;
 pub mod host;
 pub mod instance;
 pub mod log;

@@ -1,0 +1,26 @@
+//! Wall times on a machine that others use too: the best of several.
+
+use std::time::{Duration, Instant};
+
+/// Enough repetitions, and enough time for them.
+const MOST_REPEATS: u32 = 15;
+const ENOUGH: Duration = Duration::from_millis(1500);
+
+/// The smallest of the times [s] that `measure` gives, again and again for a while.
+pub fn best(mut measure: impl FnMut() -> f64) -> f64 {
+    let clock = Instant::now();
+    let mut best = f64::INFINITY;
+    for _ in 0..MOST_REPEATS {
+        best = best.min(measure());
+        if clock.elapsed() > ENOUGH {
+            break;
+        }
+    }
+    best
+}
+
+/// The middle one of measured values.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

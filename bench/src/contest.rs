@@ -1,0 +1,127 @@
+//! The cheapest setting of a method that reaches an error, and what it costs.
+
+use geartrain::config::SolverChoice;
+
+use crate::clock::best;
+use crate::problem::{Problem, Run};
+use crate::rivals::{ours, rk4};
+
+/// Simulated time [s], and at how many times in it forces are compared.
+pub const SPAN: f64 = 0.05;
+pub const SAMPLES: u32 = 100;
+/// Our converged solution, and Runge-Kutta steps in an interval (0.5 us each) that have to agree with it.
+const CONVERGED: f64 = 1e-10;
+const FINE_STEPS: u64 = 1000;
+/// They agree better than the smallest error that is measured, by a factor of ten.
+const AGREEMENT: f64 = 1e-6;
+/// Most steps that are tried in an interval.
+const MOST_STEPS: u64 = 10_000;
+
+/// A problem with its answer.
+pub struct Contest {
+    text: String,
+    pub problem: Problem,
+    converged: Vec<f64>,
+    /// By how much Runge-Kutta differs from our answer.
+    pub disagreement: f64,
+}
+
+/// What reached the error.
+pub struct Found {
+    /// The tolerance or step that did.
+    pub setting: String,
+    /// The error reached.
+    pub error: f64,
+    /// What it cost.
+    pub run: Run,
+}
+
+impl Contest {
+    /// A model with its converged forces; an error where Runge-Kutta does not get the same.
+    pub fn of(text: &str) -> Result<Contest, String> {
+        let problem = Problem::of(text, SPAN, SAMPLES);
+        let converged = ours::run(&problem, text, SolverChoice::Exponential, CONVERGED).forces;
+        let disagreement = problem.error(&rk4::run(&problem, FINE_STEPS).forces, &converged);
+        // Written so that a NaN is refused.
+        if disagreement <= AGREEMENT {
+            let text = text.to_string();
+            Ok(Contest {
+                text,
+                problem,
+                converged,
+                disagreement,
+            })
+        } else {
+            Err(format!(
+                "Runge-Kutta with steps of 0.5 us and our solver at {CONVERGED:e} differ by {disagreement:e}: the \
+                 equations are not the same, or one of them is wrong"
+            ))
+        }
+    }
+
+    /// One of our solvers.
+    pub fn ours(&self, solver: SolverChoice, asked: f64) -> Result<Found, String> {
+        self.by_tolerance(asked, |tolerance| {
+            Ok(ours::run(&self.problem, &self.text, solver, tolerance))
+        })
+    }
+
+    /// A method with the loosest tolerance of a ladder that reaches the error.
+    pub fn by_tolerance(
+        &self,
+        asked: f64,
+        run: impl Fn(f64) -> Result<Run, String>,
+    ) -> Result<Found, String> {
+        let decades = (1..=9).map(|decade| 1.0 / f64::from(10u32.pow(decade)));
+        for tolerance in decades.flat_map(|decade| [decade, 0.3 * decade]) {
+            if self.error(&run(tolerance)?) <= asked {
+                return self.found(format!("tol {tolerance:.0e}"), || run(tolerance));
+            }
+        }
+        Err("not reached".to_string())
+    }
+
+    /// The fewest Runge-Kutta steps in an interval that reach the error, within 3 %.
+    pub fn runge_kutta_steps(&self, asked: f64) -> Result<u64, String> {
+        let mut steps = 1;
+        while self.error(&rk4::run(&self.problem, steps)) > asked {
+            steps += 1 + steps / 32;
+            if steps > MOST_STEPS {
+                return Err("not reached".to_string());
+            }
+        }
+        Ok(steps)
+    }
+
+    /// A method with so many steps in an interval.
+    pub fn by_steps(
+        &self,
+        steps: u64,
+        run: impl Fn(&Problem, u64) -> Result<Run, String>,
+    ) -> Result<Found, String> {
+        let interval = SPAN / f64::from(SAMPLES);
+        let setting = format!("{:.2} us", 1e6 * interval / steps as f64);
+        self.found(setting, || run(&self.problem, steps))
+    }
+
+    /// The best wall time of several runs.
+    fn found(
+        &self,
+        setting: String,
+        again: impl Fn() -> Result<Run, String>,
+    ) -> Result<Found, String> {
+        let mut run = again()?;
+        run.seconds = best(|| again().map_or(f64::INFINITY, |run| run.seconds)).min(run.seconds);
+        Ok(Found {
+            setting,
+            error: self.error(&run),
+            run,
+        })
+    }
+
+    /// Infinite where there are no numbers.
+    fn error(&self, run: &Run) -> f64 {
+        let error = self.problem.error(&run.forces, &self.converged);
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+}

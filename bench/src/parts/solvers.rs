@@ -1,0 +1,101 @@
+//! Wall time per simulated second at the same error: our solvers against what a user could pick instead.
+
+use geartrain::config::SolverChoice::{Exponential, Newmark};
+
+use crate::contest::{Contest, Found, SAMPLES, SPAN};
+use crate::models::{MODES, case_four, odd_speed};
+use crate::problem::{Problem, Run};
+use crate::rivals::{dopri5, numpy, rk4};
+use crate::table::Table;
+
+/// The errors that are asked for.
+const ERRORS: [f64; 2] = [1e-3, 1e-5];
+
+/// Measures and prints.
+pub fn run() -> Result<(), String> {
+    println!(
+        "Wall time at the same error: three_stage, case 4, {SPAN} s from equilibrium, inputs held. Error: RMS of mesh\n\
+         forces against the converged solution / RMS of their alternating part, worst mesh, {SAMPLES} times.\n"
+    );
+    let mut table = Table::new(&[
+        "method",
+        "modes",
+        "asked",
+        "setting",
+        "error",
+        "ms per simulated s",
+        "steps per simulated s",
+        "ns per step",
+        "times exponential",
+    ]);
+    for modes in MODES {
+        let contest = Contest::of(&case_four(modes))?;
+        let odd = Contest::of(&odd_speed(&case_four(modes)))?;
+        for (speed, contest) in [("3000 rpm", &contest), ("2961.7 rpm", &odd)] {
+            println!(
+                "{modes} modes, {speed}: our converged solution and fine Runge-Kutta steps differ by {:.1e}",
+                contest.disagreement
+            );
+        }
+        for asked in ERRORS {
+            let problem = &contest.problem;
+            let steps = contest.runge_kutta_steps(asked);
+            let by_steps = |run: fn(&Problem, u64) -> Result<Run, String>| {
+                contest.by_steps(steps.clone()?, run)
+            };
+            let methods = [
+                ("exponential", contest.ours(Exponential, asked)),
+                ("exponential, 2961.7 rpm", odd.ours(Exponential, asked)),
+                ("newmark", contest.ours(Newmark, asked)),
+                (
+                    "RK4, Rust",
+                    by_steps(|problem, steps| Ok(rk4::run(problem, steps))),
+                ),
+                (
+                    "DOPRI5, Rust",
+                    contest.by_tolerance(asked, |tolerance| Ok(dopri5::run(problem, tolerance))),
+                ),
+                ("RK4, numpy loop", by_steps(numpy::run)),
+            ];
+            let unit = methods[0]
+                .1
+                .as_ref()
+                .map_or(f64::NAN, |ours| ours.run.seconds);
+            for (name, found) in methods {
+                let mut cells = vec![name.to_string(), modes.to_string(), format!("{asked:.0e}")];
+                cells.extend(match found {
+                    Ok(found) => figures(&found, unit),
+                    Err(why) => why_not(why),
+                });
+                table.row(cells);
+            }
+        }
+    }
+    println!();
+    table.print();
+    Ok(())
+}
+
+fn figures(
+    Found {
+        setting,
+        error,
+        run,
+    }: &Found,
+    unit: f64,
+) -> Vec<String> {
+    vec![
+        setting.clone(),
+        format!("{error:.1e}"),
+        format!("{:.2}", 1e3 * run.seconds / SPAN),
+        format!("{:.3e}", run.steps as f64 / SPAN),
+        format!("{:.0}", 1e9 * run.seconds / run.steps as f64),
+        format!("{:.1}", run.seconds / unit),
+    ]
+}
+
+fn why_not(why: String) -> Vec<String> {
+    let mut cells = vec![why];
+    cells.resize(6, String::new());
+    cells
+}

@@ -6,8 +6,9 @@ use crate::clock::best;
 use crate::problem::{Problem, Run};
 use crate::rivals::{ours, rk4};
 
-/// Simulated time [s], and at how many times in it forces are compared.
+/// Simulated time [s].
 pub const SPAN: f64 = 0.05;
+/// At how many times in it forces are compared.
 pub const SAMPLES: u32 = 100;
 /// Our converged solution, and Runge-Kutta steps in an interval (0.5 us each) that have to agree with it.
 const CONVERGED: f64 = 1e-10;
@@ -20,6 +21,7 @@ const MOST_STEPS: u64 = 10_000;
 /// A problem with its answer.
 pub struct Contest {
     text: String,
+    /// Start and times.
     pub problem: Problem,
     converged: Vec<f64>,
     /// By how much Runge-Kutta differs from our answer.
@@ -57,6 +59,11 @@ impl Contest {
                  equations are not the same, or one of them is wrong"
             ))
         }
+    }
+
+    /// The model file.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// One of our solvers.

@@ -13,7 +13,7 @@ use core::ops::Range;
 
 use geartrain::config::TorqueCoupling;
 use geartrain::mesh::StiffnessLaw;
-use geartrain::model::{Inputs, ModalModel};
+use geartrain::model::ModalModel;
 use geartrain::train::GearTrain;
 use serde_json::{Value, json};
 
@@ -70,12 +70,12 @@ struct Harmonic {
 }
 
 impl Equations {
-    /// The equations of a train under held inputs.
+    /// The equations of a train under these torques; the gearbox moves only as the file says.
     ///
     /// # Panics
     /// The train has something that does not fit into this form: free spin, contact that opens, transmission errors,
     /// bearings with a radial force.
-    pub fn of(train: &GearTrain, model: &ModalModel, inputs: &Inputs) -> Equations {
+    pub fn of(train: &GearTrain, model: &ModalModel, torques: &[f64]) -> Equations {
         let system = &model.system;
         let linear = train.meshes.iter().all(|mesh| {
             mesh.backlash.is_none()
@@ -85,7 +85,9 @@ impl Equations {
         let only_meshes = system.couplings.len() == train.meshes.len();
         assert!(linear && only_meshes && !model.is_free(), "not linear");
         let mut held = vec![0.0; system.size];
-        inputs.load_into(model, &mut held);
+        for (row, &torque) in model.torques().zip(torques) {
+            row.add_to(torque, &mut held);
+        }
         let meshes = train.meshes.iter().zip(&system.couplings);
         Equations {
             size: system.size,
@@ -105,24 +107,45 @@ impl Equations {
         }
     }
 
-    /// Length of x.
-    pub fn len(&self) -> usize {
+    /// Number of equations: the length of x.
+    pub fn order(&self) -> usize {
         2 * self.size
     }
 
     /// f(t, x) into `derivative`.
     #[inline(always)] // into integrators compiled for a vector width
     pub fn evaluate(&self, time: f64, x: &[f64], derivative: &mut [f64]) {
-        let (q, v) = x.split_at(self.size);
-        let (dq, dv) = derivative.split_at_mut(self.size);
-        dq.copy_from_slice(v);
-        dv.copy_from_slice(&self.held);
+        let load = &mut derivative[self.size..];
+        load.copy_from_slice(&self.held);
         for harmonic in &self.harmonics {
             let (sine, cosine) = (harmonic.frequency * time).sin_cos();
-            for (entry, [c, s]) in dv.iter_mut().zip(&harmonic.load) {
+            for (entry, [c, s]) in load.iter_mut().zip(&harmonic.load) {
                 *entry += c * cosine + s * sine;
             }
         }
+        self.add_linear(time, x, derivative);
+    }
+
+    /// df/dx times a direction.
+    pub fn apply_jacobian(&self, time: f64, direction: &[f64], change: &mut [f64]) {
+        change.fill(0.0);
+        self.add_linear(time, direction, change);
+    }
+
+    /// Column number `column` of df/dx.
+    pub fn jacobian_column(&self, time: f64, column: usize) -> Vec<f64> {
+        let (mut direction, mut change) = (vec![0.0; self.order()], vec![0.0; self.order()]);
+        direction[column] = 1.0;
+        self.apply_jacobian(time, &direction, &mut change);
+        change
+    }
+
+    /// The part of f that is linear in x; the displacements' rates are overwritten.
+    #[inline(always)]
+    fn add_linear(&self, time: f64, x: &[f64], derivative: &mut [f64]) {
+        let (q, v) = x.split_at(self.size);
+        let (dq, dv) = derivative.split_at_mut(self.size);
+        dq.copy_from_slice(v);
         for block in &self.blocks {
             let range = block.range.clone();
             block.subtract(&q[range.clone()], &v[range.clone()], &mut dv[range]);
@@ -137,28 +160,18 @@ impl Equations {
         }
     }
 
-    /// df/dx at `time`, column by column.
-    pub fn jacobian(&self, time: f64) -> Vec<Vec<f64>> {
-        let zero = vec![0.0; self.len()];
-        let difference = |j: usize| {
-            // f is affine in x: a difference over a step of 1 is exact up to rounding.
-            let (mut x, mut here, mut there) = (zero.clone(), zero.clone(), zero.clone());
-            self.evaluate(time, &x, &mut here);
-            x[j] = 1.0;
-            self.evaluate(time, &x, &mut there);
-            there.iter().zip(&here).map(|(b, a)| b - a).collect()
-        };
-        (0..self.len()).map(difference).collect()
-    }
-
     /// The matrices and loads for a program in another language; k of every mesh at `points` + 1 phases of a pitch.
     pub fn to_json(&self, points: u32) -> Value {
-        let jacobian = self.jacobian_without_meshes();
-        let matrix = |first: usize| -> Vec<Vec<f64>> {
-            let rows = self.size..self.len();
-            let columns = first..first + self.size;
-            rows.map(|i| columns.clone().map(|j| -jacobian[j][i]).collect())
-                .collect()
+        let alone = Equations {
+            meshes: Vec::new(),
+            ..self.clone()
+        };
+        let columns = |first: usize| -> Vec<Vec<f64>> {
+            let column = |j: usize| {
+                let column = alone.jacobian_column(0.0, j);
+                column[self.size..].iter().map(|entry| -entry).collect()
+            };
+            (first..first + self.size).map(column).collect()
         };
         let of_meshes =
             |value: fn(&Mesh) -> f64| -> Vec<f64> { self.meshes.iter().map(value).collect() };
@@ -178,8 +191,8 @@ impl Equations {
             (0..=points).map(at).collect()
         };
         json!({
-            "stiffness": matrix(0),
-            "damping": matrix(self.size),
+            "stiffness_columns": columns(0),
+            "damping_columns": columns(self.size),
             "rows": self.meshes.iter().map(row).collect::<Vec<_>>(),
             "held": self.held,
             "mesh_damping": of_meshes(|mesh| mesh.damping),
@@ -190,15 +203,6 @@ impl Equations {
             "cosine": along(0),
             "sine": along(1),
         })
-    }
-
-    fn jacobian_without_meshes(&self) -> Vec<Vec<f64>> {
-        let meshes = Vec::new();
-        Equations {
-            meshes,
-            ..self.clone()
-        }
-        .jacobian(0.0)
     }
 
     /// Mesh forces [N] in a state.

@@ -1,29 +1,10 @@
-//! Benchmarks: `cargo xtask bench [solvers] [masters] ...`. Prints tables; compare ratios within one run.
+//! `cargo xtask bench [PART]...`: prints the tables of the parts named, or of all.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a command line talks
 
-mod clock;
-mod contest;
-mod equations;
-mod fmu;
-mod models;
-mod parts;
-mod problem;
-mod rivals;
-mod table;
-
 use std::process::ExitCode;
 
-use parts::{masters, solvers, start};
-
-/// A part by its name.
-type Part = (&'static str, fn() -> Result<(), String>);
-
-const PARTS: [Part; 3] = [
-    ("solvers", solvers::run),
-    ("masters", masters::run),
-    ("start", start::run),
-];
+use bench::parts::PARTS;
 
 fn main() -> ExitCode {
     let wanted: Vec<String> = std::env::args().skip(1).collect();

@@ -43,7 +43,7 @@ impl Problem {
         let simulation = started(&train, &settings, 1e-8);
         let interval = |index: u32| span * f64::from(index) / f64::from(samples);
         let mut problem = Problem {
-            equations: Equations::of(&train, simulation.model(), &inputs(&train)),
+            equations: Equations::of(&train, simulation.model(), &inputs(&train).torques),
             start: state(&simulation),
             times: (1..=samples).map(interval).collect(),
             scale: Vec::new(),

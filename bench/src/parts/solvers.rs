@@ -5,7 +5,7 @@ use geartrain::config::SolverChoice::{Exponential, Newmark};
 use crate::contest::{Contest, Found, SAMPLES, SPAN};
 use crate::models::{MODES, case_four, odd_speed};
 use crate::problem::{Problem, Run};
-use crate::rivals::{dopri5, numpy, rk4};
+use crate::rivals::{cvode, diffsol, dopri5, numpy, rk4};
 use crate::table::Table;
 
 /// The errors that are asked for.
@@ -38,25 +38,7 @@ pub fn run() -> Result<(), String> {
             );
         }
         for asked in ERRORS {
-            let problem = &contest.problem;
-            let steps = contest.runge_kutta_steps(asked);
-            let by_steps = |run: fn(&Problem, u64) -> Result<Run, String>| {
-                contest.by_steps(steps.clone()?, run)
-            };
-            let methods = [
-                ("exponential", contest.ours(Exponential, asked)),
-                ("exponential, 2961.7 rpm", odd.ours(Exponential, asked)),
-                ("newmark", contest.ours(Newmark, asked)),
-                (
-                    "RK4, Rust",
-                    by_steps(|problem, steps| Ok(rk4::run(problem, steps))),
-                ),
-                (
-                    "DOPRI5, Rust",
-                    contest.by_tolerance(asked, |tolerance| Ok(dopri5::run(problem, tolerance))),
-                ),
-                ("RK4, numpy loop", by_steps(numpy::run)),
-            ];
+            let methods = methods(&contest, &odd, asked);
             let unit = methods[0]
                 .1
                 .as_ref()
@@ -74,6 +56,45 @@ pub fn run() -> Result<(), String> {
     println!();
     table.print();
     Ok(())
+}
+
+/// What each method needs to reach an error: ours at a mesh period that fits the times and at one that does not, then others.
+fn methods(
+    contest: &Contest,
+    odd: &Contest,
+    asked: f64,
+) -> Vec<(&'static str, Result<Found, String>)> {
+    let problem = &contest.problem;
+    let steps = contest.runge_kutta_steps(asked);
+    let by_steps =
+        |run: fn(&Problem, u64) -> Result<Run, String>| contest.by_steps(steps.clone()?, run);
+    let dopri5 = |tolerance| Ok(dopri5::run(problem, tolerance));
+    let diffsol = |method| {
+        contest.by_tolerance(asked, move |tolerance| {
+            diffsol::run(contest.text(), method, tolerance)
+        })
+    };
+    let cvode = |formulas| {
+        contest.by_tolerance(asked, move |tolerance| {
+            cvode::run(problem, formulas, tolerance)
+        })
+    };
+    vec![
+        ("exponential", contest.ours(Exponential, asked)),
+        ("exponential, 2961.7 rpm", odd.ours(Exponential, asked)),
+        ("newmark", contest.ours(Newmark, asked)),
+        (
+            "RK4, Rust",
+            by_steps(|problem, steps| Ok(rk4::run(problem, steps))),
+        ),
+        ("DOPRI5, Rust", contest.by_tolerance(asked, dopri5)),
+        ("diffsol tsit45", diffsol("tsit45")),
+        ("diffsol BDF", diffsol("bdf")),
+        ("diffsol TR-BDF2", diffsol("tr_bdf2")),
+        ("CVODE Adams", cvode(cvode::Formulas::Adams)),
+        ("CVODE BDF", cvode(cvode::Formulas::Bdf)),
+        ("RK4, numpy loop", by_steps(numpy::run)),
+    ]
 }
 
 fn figures(

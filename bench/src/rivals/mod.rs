@@ -1,6 +1,9 @@
 //! What a user could pick instead of our solvers.
 
+pub mod cvode;
+pub mod diffsol;
 pub mod dopri5;
+mod elsewhere;
 pub mod numpy;
 pub mod ours;
 pub mod rk4;

@@ -9,7 +9,8 @@ import time
 import numpy as np
 
 data = json.load(sys.stdin)
-K, D, W = (np.array(data[key]) for key in ("stiffness", "damping", "rows"))
+K, D = (np.array(data[key]).T.copy() for key in ("stiffness_columns", "damping_columns"))
+W = np.array(data["rows"])
 held, mesh_damping = np.array(data["held"]), np.array(data["mesh_damping"])
 frequency, along_cosine, along_sine = (np.array(data[key]) for key in ("frequency", "cosine", "sine"))
 start_phase, phase_rate = np.array(data["start_phase"]), np.array(data["phase_rate"])
@@ -49,4 +50,4 @@ for end in data["times"]:
         x = step(begin + number * h, h, x)
     forces.extend(mesh_force(end, x[:n], x[n:]).tolist())
     begin = end
-json.dump({"seconds": time.perf_counter() - clock, "forces": forces}, sys.stdout)
+json.dump({"seconds": time.perf_counter() - clock, "steps": data["steps"] * len(data["times"]), "forces": forces}, sys.stdout)

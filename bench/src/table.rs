@@ -14,8 +14,9 @@ impl Table {
         }
     }
 
-    /// Adds a row.
-    pub fn row(&mut self, cells: Vec<String>) {
+    /// Adds a row; cells that are missing stay empty.
+    pub fn row(&mut self, mut cells: Vec<String>) {
+        cells.resize(self.rows[0].len(), String::new());
         self.rows.push(cells);
     }
 

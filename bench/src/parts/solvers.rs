@@ -28,6 +28,7 @@ pub fn run() -> Result<(), String> {
         "ns per step",
         "times exponential",
     ]);
+    let mut notes = Vec::new();
     for modes in MODES {
         let contest = Contest::of(&case_four(modes))?;
         let odd = Contest::of(&odd_speed(&case_four(modes)))?;
@@ -45,16 +46,23 @@ pub fn run() -> Result<(), String> {
                 .map_or(f64::NAN, |ours| ours.run.seconds);
             for (name, found) in methods {
                 let mut cells = vec![name.to_string(), modes.to_string(), format!("{asked:.0e}")];
-                cells.extend(match found {
-                    Ok(found) => figures(&found, unit),
-                    Err(why) => why_not(why),
-                });
+                match found {
+                    Ok(found) => cells.extend(figures(&found, unit)),
+                    Err(why) => {
+                        notes.push(format!("{name}, {modes} modes, {asked:.0e}: {why}"));
+                        cells.push("none".to_string());
+                    }
+                }
                 table.row(cells);
             }
         }
     }
     println!();
     table.print();
+    for note in notes {
+        println!("{note}");
+    }
+    println!();
     Ok(())
 }
 
@@ -113,10 +121,4 @@ fn figures(
         format!("{:.0}", 1e9 * run.seconds / run.steps as f64),
         format!("{:.1}", run.seconds / unit),
     ]
-}
-
-fn why_not(why: String) -> Vec<String> {
-    let mut cells = vec![why];
-    cells.resize(6, String::new());
-    cells
 }

@@ -10,9 +10,9 @@ use crate::rivals::{ours, rk4};
 pub const SPAN: f64 = 0.05;
 /// At how many times in it forces are compared.
 pub const SAMPLES: u32 = 100;
-/// Our converged solution, and Runge-Kutta steps in an interval (0.5 us each) that have to agree with it.
+/// Our converged solution, and the Runge-Kutta step [s] that has to agree with it.
 const CONVERGED: f64 = 1e-10;
-const FINE_STEPS: u64 = 1000;
+const FINE: f64 = 5e-7;
 /// They agree better than the smallest error that is measured, by a factor of ten.
 const AGREEMENT: f64 = 1e-6;
 /// Most steps that are tried in an interval.
@@ -41,21 +41,26 @@ pub struct Found {
 impl Contest {
     /// A model with its converged forces; an error where Runge-Kutta does not get the same.
     pub fn of(text: &str) -> Result<Contest, String> {
-        let problem = Problem::of(text, SPAN, SAMPLES);
+        Contest::between(text, Problem::of(text, SPAN, SAMPLES))
+    }
+
+    /// A model file and the problem made from it.
+    pub fn between(text: &str, problem: Problem) -> Result<Contest, String> {
         let converged = ours::run(&problem, text, SolverChoice::Exponential, CONVERGED).forces;
-        let disagreement = problem.error(&rk4::run(&problem, FINE_STEPS).forces, &converged);
+        let interval = problem.times[0];
+        let fine = rk4::run(&problem, (interval / FINE).ceil() as u64);
+        let disagreement = problem.error(&fine.forces, &converged);
         // Written so that a NaN is refused.
         if disagreement <= AGREEMENT {
-            let text = text.to_string();
             Ok(Contest {
-                text,
+                text: text.to_string(),
                 problem,
                 converged,
                 disagreement,
             })
         } else {
             Err(format!(
-                "Runge-Kutta with steps of 0.5 us and our solver at {CONVERGED:e} differ by {disagreement:e}: the \
+                "Runge-Kutta with steps of {FINE:e} s and our solver at {CONVERGED:e} differ by {disagreement:e}: the \
                  equations are not the same, or one of them is wrong"
             ))
         }

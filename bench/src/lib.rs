@@ -3,7 +3,7 @@
 //! ```text
 //!   models      texts of model files            problem   start, times, errors       equations   x' = f(t, x) for everybody
 //!   rivals      what solves it                  contest   the cheapest setting that reaches an error
-//!   fmu         the FMU's library, loaded       parts     one table each             table, clock
+//!   fmu         the FMU's library, loaded       parts     one table each             series, table, clock, machine
 //! ```
 //!
 //! Measures and prints; asserts nothing but that everybody solves the same equations.
@@ -14,8 +14,10 @@ pub mod clock;
 pub mod contest;
 pub mod equations;
 pub mod fmu;
+pub mod machine;
 pub mod models;
 pub mod parts;
 pub mod problem;
 pub mod rivals;
+pub mod series;
 pub mod table;

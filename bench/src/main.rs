@@ -4,6 +4,7 @@
 
 use std::process::ExitCode;
 
+use bench::machine;
 use bench::parts::PARTS;
 
 fn main() -> ExitCode {
@@ -16,6 +17,7 @@ fn main() -> ExitCode {
         );
         return ExitCode::FAILURE;
     }
+    println!("{}\n", machine::line());
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|word| word == name);
     for (name, run) in PARTS.into_iter().filter(|(name, _)| is_wanted(name)) {
         println!("== {name}\n");

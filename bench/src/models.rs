@@ -65,3 +65,67 @@ pub fn odd_speed(text: &str) -> String {
     text.replace("speed = 314.1592653589793", "speed = 310.1487")
         .replace("speed = -314.1592653589793", "speed = -310.1487")
 }
+
+/// How the meshes of a chain stand to each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phases {
+    /// All pass the same phase at the same time.
+    Together,
+    /// Each is a little ahead of the one before, by a multiple of a hundredth of the mesh period.
+    Apart,
+    /// As before, by a number that fits no communication step.
+    Anywhere,
+}
+
+/// Shafts in a row, each in mesh with the next one: the first drives, the last is braked, those between are idlers. Mesh
+/// period 2 ms.
+pub fn chain(rotors: usize, modes: Modes, phases: Phases) -> String {
+    let Modes { lateral, torsional } = modes;
+    let mut text = format!(
+        "kind = \"gear_train\"\nname = \"chain\"\n\
+         [basis]\nlateral_modes = {lateral}\ntorsional_modes = {torsional}\nstatic_shapes = false\n\
+         [material.default]\nyoungs_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7800.0\n"
+    );
+    let sign = |rotor: usize| if rotor.is_multiple_of(2) { 1 } else { -1 };
+    for rotor in 0..rotors {
+        // 500 teeth per second.
+        let speed = f64::from(sign(rotor)) * core::f64::consts::TAU * 500.0 / 24.0;
+        text += &format!(
+            "[[rotor]]\nname = \"shaft{rotor}\"\nspeed = {speed}\nmax_element_length = 0.1\n\
+             lateral_damping_ratio = 0.01\ntorsional_damping_ratio = 0.01\n\
+             [[rotor.segment]]\nlength = 0.4\nouter_diameter = 0.05\n\
+             [[rotor.gear]]\nname = \"gear\"\nposition = 0.25\nteeth = 24\nbase_radius = 0.07\n\
+             mass = 5.0\npolar_inertia = 0.015\ndiametral_inertia = 0.008\n\
+             [[rotor.bearing]]\nname = \"left\"\nposition = 0.05\n\
+             stiffness = {{ xx = 8e7, yy = 6e7 }}\ndamping = {{ xx = 900.0 }}\n\
+             [[rotor.bearing]]\nname = \"right\"\nposition = 0.35\n\
+             stiffness = {{ xx = 9e7, yy = 7e7 }}\ndamping = {{ xx = 700.0 }}\n\
+             [[rotor.unbalance]]\nname = \"unbalance\"\nposition = 0.25\nmoment = 2e-4\nphase = {}\n",
+            0.4 * rotor as f64
+        );
+        let torque = match rotor {
+            0 => 400,
+            _ if rotor + 1 == rotors => -400 * sign(rotor),
+            _ => continue,
+        };
+        text += &format!(
+            "[[rotor.torque]]\nname = \"port\"\nposition = 0.0\nvalue = {torque}\nslope = 1.0\n"
+        );
+    }
+    for mesh in 1..rotors {
+        let ahead = match phases {
+            Phases::Together => 0.0,
+            Phases::Apart => 0.07,
+            Phases::Anywhere => 0.0737,
+        };
+        let phase = ahead * mesh as f64 % 1.0;
+        text += &format!(
+            "[[mesh]]\nname = \"mesh{mesh}\"\ngears = [\"shaft{}.gear\", \"shaft{mesh}.gear\"]\n\
+             center_angle = 0.3\npressure_angle = 0.35\nflank = {}\ndamping_ratio = 0.05\nphase = {phase}\n\
+             [mesh.stiffness]\nlaw = \"tooth_pair\"\npair = 3e8\nquadratic = 0.4\nquartic = 0.0\nramp = 0.1\ncontact_ratio = 1.6\n",
+            mesh - 1,
+            sign(mesh - 1),
+        );
+    }
+    text
+}

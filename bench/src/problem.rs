@@ -8,6 +8,7 @@ use geartrain::simulation::Simulation;
 use geartrain::train::{GearTrain, load};
 
 use crate::equations::Equations;
+use crate::series;
 
 /// An initial value problem with the times that count.
 #[derive(Debug, Clone)]
@@ -77,25 +78,11 @@ impl Problem {
         let column = |values: &[f64], mesh: usize| -> Vec<f64> {
             values.iter().skip(mesh).step_by(meshes).copied().collect()
         };
-        let of_mesh = |mesh: usize| relative_error(&column(forces, mesh), &column(converged, mesh));
-        // NaN is no small error.
-        (0..meshes).map(of_mesh).fold(0.0, |worst, error| {
-            if error > worst || error.is_nan() {
-                error
-            } else {
-                worst
-            }
-        })
+        series::worst((0..meshes).map(|mesh| {
+            let (found, right) = (column(forces, mesh), column(converged, mesh));
+            series::difference(&found, &right) / series::alternating(&right)
+        }))
     }
-}
-
-/// RMS of the difference of two series relative to the RMS of the alternating part of the second.
-pub fn relative_error(found: &[f64], converged: &[f64]) -> f64 {
-    let mean = converged.iter().sum::<f64>() / converged.len() as f64;
-    let squares = |terms: &mut dyn Iterator<Item = f64>| terms.map(|term| term * term).sum::<f64>();
-    let difference = squares(&mut found.iter().zip(converged).map(|(a, b)| a - b));
-    let alternating = squares(&mut converged.iter().map(|force| force - mean));
-    (difference / alternating).sqrt()
 }
 
 /// A valid model file.

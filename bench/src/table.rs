@@ -16,7 +16,9 @@ impl Table {
 
     /// Adds a row; cells that are missing stay empty.
     pub fn row(&mut self, mut cells: Vec<String>) {
-        cells.resize(self.rows[0].len(), String::new());
+        let columns = self.rows[0].len();
+        assert!(cells.len() <= columns, "more cells than headings");
+        cells.resize(columns, String::new());
         self.rows.push(cells);
     }
 

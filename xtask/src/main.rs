@@ -24,9 +24,10 @@ cargo xtask <command>
   demo                            pack examples/three_stage.toml, run the paper's four cases through
                                   FMPy, write CSV files and pictures to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
-  bench [solvers|masters|start]...
+  bench [solvers|masters|start|chains|accuracy]... [--record]
                                   how fast it is: our solvers against others at the same error, a communication
-                                  step through the C interface, starting an instance
+                                  step through the C interface, starting an instance, growth with the number of
+                                  rotors, error over tolerance; --record puts all tables into docs/performance.md
   golden                          regenerate modelDescription/modelDescription.xml; review its diff
 ";
 

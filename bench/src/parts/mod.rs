@@ -1,5 +1,7 @@
 //! The parts of the benchmark, each with a table of its own.
 
+pub mod accuracy;
+pub mod chains;
 pub mod masters;
 pub mod solvers;
 pub mod start;
@@ -8,8 +10,10 @@ pub mod start;
 pub type Part = (&'static str, fn() -> Result<(), String>);
 
 /// All parts, in the order in which they run.
-pub const PARTS: [Part; 3] = [
+pub const PARTS: [Part; 5] = [
     ("solvers", solvers::run),
     ("masters", masters::run),
     ("start", start::run),
+    ("chains", chains::run),
+    ("accuracy", accuracy::run),
 ];

@@ -11,7 +11,7 @@
 use super::radial::RadialBearing;
 use super::{BaseMotion, Course, ModalModel, Rotor};
 use crate::rotor::BowLoad;
-use crate::solver::{Block, Forcing, Harmonic, Instant, Piece, Ramp, Spring};
+use crate::solver::{Block, Forcing, Harmonic, Instant, Line, Piece, Ramp, Spring};
 use crate::train;
 
 use super::spin::Spin;
@@ -128,6 +128,16 @@ impl Forcing for Excitation<'_> {
             let base = |input| self.base(input, at.time);
             let load = |number: usize| self.loads[number].after(at.time - self.course.since);
             spin.forces_into(at, load, base, forces);
+        }
+    }
+
+    fn is_straight(&self) -> bool {
+        self.model.radial.is_empty() && self.model.spins.is_empty()
+    }
+
+    fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]) {
+        for mesh in &self.model.meshes {
+            mesh.lines_into(time, pieces, lines);
         }
     }
 

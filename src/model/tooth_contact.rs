@@ -10,9 +10,8 @@
 //! Where the paper's equation (6) is taken literally, the torque follows the rotational part of delta alone.
 
 use super::Mesh;
-use crate::config::TorqueCoupling;
 use crate::mesh::StiffnessLaw;
-use crate::solver::{Instant, Piece, Spring};
+use crate::solver::{Instant, Line, Piece, Spring};
 
 /// A flank of a unilateral mesh that carries nothing, and one that does: pieces of its law.
 const OPEN: usize = 0;
@@ -118,6 +117,34 @@ impl Mesh {
         }
     }
 
+    /// The force of a coupling of the mesh as a line: each flank, or what the torque follows; nothing where a flank is open.
+    fn line(&self, number: usize, phase: Phase, pieces: &[Piece]) -> Line {
+        let open = self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN;
+        if open {
+            return Line::default();
+        }
+        let spring = Spring {
+            stiffness: self.stiffness_in(pieces[self.first_law], phase),
+            damping: self.damping,
+        };
+        // Without backlash the second coupling follows the rotations alone.
+        let bare = number == 1 && self.backlash.is_none();
+        let rest = if bare {
+            0.0
+        } else {
+            self.held_force(spring.stiffness, self.compression(number, phase, [0.0; 2]))
+        };
+        Line { spring, rest }
+    }
+
+    /// Overwrites the lines of the mesh's couplings at a time, at prescribed speed.
+    pub(super) fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]) {
+        let phase = self.phase_at(time);
+        for (number, line) in lines[self.couplings()].iter_mut().enumerate() {
+            *line = self.line(number, phase, pieces);
+        }
+    }
+
     /// F of a flank with stiffness k; 0 where a unilateral flank is open.
     pub(super) fn flank_force(&self, k: f64, compression: Compression) -> f64 {
         let force = self.held_force(k, compression);
@@ -133,22 +160,9 @@ impl Mesh {
     /// Overwrites the forces of the mesh's couplings.
     pub(super) fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
         let phase = self.phase(at);
-        let k = self.stiffness_in(pieces[self.first_law], phase);
-        let first = self.first_coupling;
-        let seen = |coupling: usize| [at.deflection[coupling], at.rate[coupling]];
-        let held =
-            |flank: usize| self.held_force(k, self.compression(flank, phase, seen(first + flank)));
-        if self.backlash.is_some() {
-            for flank in [0, 1] {
-                let closed = pieces[self.first_law + 1 + flank].index == CLOSED;
-                forces[first + flank] = if closed { held(flank) } else { 0.0 };
-            }
-        } else {
-            forces[first] = held(0);
-            if self.torque_coupling == TorqueCoupling::AsPrinted {
-                let [deflection, rate] = seen(first + 1);
-                forces[first + 1] = k * deflection + self.damping * rate;
-            }
+        for (number, coupling) in self.couplings().enumerate() {
+            let line = self.line(number, phase, pieces);
+            forces[coupling] = line.at(at.deflection[coupling], at.rate[coupling]);
         }
         if let Some(observer) = self.turning {
             forces[observer] = 0.0;
@@ -157,18 +171,9 @@ impl Mesh {
 
     /// Overwrites the tangents of the mesh's couplings.
     pub(super) fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
-        let held = Spring {
-            stiffness: self.stiffness_in(pieces[self.first_law], self.phase(at)),
-            damping: self.damping,
-        };
-        let own = &mut tangents[self.couplings()];
-        own.fill(held);
-        if self.backlash.is_some() {
-            for (tangent, piece) in own.iter_mut().zip(&pieces[self.first_law + 1..]) {
-                if piece.index == OPEN {
-                    *tangent = Spring::default();
-                }
-            }
+        let phase = self.phase(at);
+        for (number, coupling) in self.couplings().enumerate() {
+            tangents[coupling] = self.line(number, phase, pieces).spring;
         }
         if let Some(observer) = self.turning {
             tangents[observer] = Spring::default();
@@ -284,6 +289,7 @@ fn piece_of(law: &StiffnessLaw, phase: f64) -> Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::TorqueCoupling;
     use crate::mesh::{LineOfAction, TransmissionError};
     use crate::solver::Row;
     use crate::train::GearAddress;

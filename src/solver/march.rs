@@ -256,7 +256,9 @@ impl March {
                     return Ok(true);
                 }
                 Outcome::Interrupted { law, time } => {
-                    let least = LEAST_ADVANCE * whole.step;
+                    // No less than what rounding lets times differ by.
+                    let rounding = 4.0 * f64::EPSILON * span.start.abs();
+                    let least = (LEAST_ADVANCE * whole.step).max(rounding);
                     let end = time.max(span.start + least);
                     let again = self.landing[law];
                     if !again && end < span.end - least {

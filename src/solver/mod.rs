@@ -120,6 +120,10 @@ pub trait Forcing {
     fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]);
     /// F of every coupling, each law continued smoothly from its piece.
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]);
+    /// Whether all forces are straight lines in their own deflection and rate while their pieces last.
+    fn is_straight(&self) -> bool;
+    /// These lines at a time, for every coupling.
+    fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]);
     /// For every coupling how its own force depends on its own deflection and rate, as far as that is fast.
     fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]);
     /// Positive while the motion keeps a law in its piece; infinity where only time ends the piece.
@@ -191,6 +195,15 @@ pub struct Spring {
     pub damping: f64,
 }
 
+/// A force as a straight line in deflection and rate.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Line {
+    /// Its slopes.
+    pub spring: Spring,
+    /// Its value at rest.
+    pub rest: f64,
+}
+
 /// Everything that moves: what a snapshot has to keep so that the continuation is the same to the bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -200,8 +213,10 @@ pub struct State {
     pub position: Vec<f64>,
     /// q'.
     pub velocity: Vec<f64>,
-    /// The solver's own solutions, from which that value comes; none where it is the solution.
+    /// The solutions of Newmark's method, from which that value comes; none for the other one.
     tracks: Vec<Track>,
+    /// The same motion in the decoupled states of the exponential method; none before its first step.
+    decoupled: Vec<f64>,
     /// The slow parameters that the blocks in use belong to.
     slow: Vec<f64>,
     control: Control,
@@ -244,6 +259,7 @@ impl System {
             position,
             velocity,
             tracks: vec![track; tracks],
+            decoupled: Vec::with_capacity(2 * self.size), // so that steps allocate nothing
             slow: self.slow.clone(),
             control: Control::new(self.monitors.len()),
         }
@@ -324,8 +340,11 @@ impl State {
         let numbers = tracks
             .chain(&self.position)
             .chain(&self.velocity)
+            .chain(&self.decoupled)
             .chain(&self.slow);
+        let states = [0, 2 * self.position.len()];
         lengths(self) == lengths(other)
+            && states.contains(&self.decoupled.len())
             && self.time.is_finite()
             && numbers.copied().all(f64::is_finite)
             && self.control.is_valid()
@@ -336,9 +355,17 @@ impl State {
         self.time = other.time;
         self.position.clone_from(&other.position);
         self.velocity.clone_from(&other.velocity);
+        self.decoupled.clone_from(&other.decoupled);
         self.slow.clone_from(&other.slow);
         self.control.copy_from(&other.control);
         copy_tracks(&mut self.tracks, &other.tracks);
+    }
+}
+
+impl Line {
+    /// The force.
+    pub fn at(&self, deflection: f64, rate: f64) -> f64 {
+        self.spring.stiffness * deflection + self.spring.damping * rate + self.rest
     }
 }
 

@@ -7,13 +7,16 @@
 //!   f_j(x)   = sum over k of l_jk m_k(x),   m_k(x) = integral of e^(B (x h - s)) (s/h)^k ds b = k! x^(k+1) h phi_(k+1)(B x h) b
 //! ```
 //!
-//! What the couplings see at x follows by the product with their rows.
+//! What the couplings see at x follows by the product with their rows. Lists run over parts, then over what touches the
+//! part, then over its states.
 
 use nalgebra::Complex;
 
+use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
 use super::part::Part;
-use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
+use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POINTS, POWERS};
+use super::sight::Readings;
 use crate::linalg::{PhiFunctions, add_scaled, dot};
 
 /// The coefficients of all parts for one step length.
@@ -21,27 +24,23 @@ use crate::linalg::{PhiFunctions, add_scaled, dot};
 pub(super) struct Coefficients {
     /// h [s]; 0 while unused.
     pub(super) step: f64,
-    pub(super) parts: Vec<PartCoefficients>,
-    pub(super) influences: Influences,
-}
-
-/// Coefficients of one part. Matrices column by column.
-#[derive(Debug, Clone)]
-pub(super) struct PartCoefficients {
-    /// h phi_1 of every group, one after the other.
-    pub(super) gain: Vec<f64>,
-    /// h^2 phi_2 of every group.
-    pub(super) ramp_gain: Vec<f64>,
-    /// Deflections and rates at the points per B eta + load: [`Part::readings`] x 2n.
-    pub(super) free: Vec<f64>,
+    /// h phi_1.
+    pub(super) gain: BlockDiagonal,
+    /// h^2 phi_2.
+    pub(super) ramp_gain: BlockDiagonal,
+    /// What sensors read per B eta + load: per part, sensor and state.
+    pub(super) free: Vec<Readings>,
     /// The same per change of the load.
-    pub(super) ramp: Vec<f64>,
-    /// f_j at the end: 2n x actuators, node after node.
+    pub(super) ramp: Vec<Readings>,
+    /// f_j at the end: per part, actuator and state.
     pub(super) columns: [Vec<f64>; NODES],
-    /// Deflections and rates at the points per harmonic: readings x harmonics.
-    pub(super) turning: Vec<Complex<f64>>,
-    /// eta at the end per harmonic: 2n x harmonics.
-    pub(super) turning_end: Vec<Complex<f64>>,
+    /// What sensors read per cosine and sine of the angle of a harmonic: per part, harmonic and sensor.
+    pub(super) turning: Vec<[Readings; 2]>,
+    /// eta at the end, likewise: per part, harmonic and state.
+    pub(super) turning_end: [Vec<f64>; 2],
+    /// e^(i w h) of every harmonic.
+    pub(super) rotations: Vec<Complex<f64>>,
+    pub(super) influences: Influences,
 }
 
 /// Room for computing coefficients.
@@ -52,6 +51,18 @@ pub(super) struct Scratch {
     moments: [Vec<f64>; POWERS],
     response: Vec<Complex<f64>>,
 }
+
+/// Where the lists of a part begin.
+#[derive(Debug, Clone, Copy, Default)]
+struct Begin {
+    free: usize,
+    columns: usize,
+    turning: usize,
+    turning_end: usize,
+}
+
+/// A place of the step: its number and x.
+type Place = (usize, f64);
 
 impl Scratch {
     pub(super) fn new(parts: &[Part]) -> Scratch {
@@ -69,20 +80,45 @@ impl Scratch {
     }
 }
 
+impl Begin {
+    /// Where those of the next part begin.
+    fn after(self, part: &Part) -> Begin {
+        let harmonics = part.harmonics.len();
+        Begin {
+            free: self.free + part.sensors.len() * part.len(),
+            columns: self.columns + part.actuators.len() * part.len(),
+            turning: self.turning + harmonics * part.sensors.len(),
+            turning_end: self.turning_end + harmonics * part.len(),
+        }
+    }
+}
+
 impl Coefficients {
-    /// Room for the coefficients of these parts.
-    pub(super) fn unused(parts: &[Part], exchange: &Exchange) -> Coefficients {
+    /// Room for the coefficients of these parts under so many harmonics.
+    pub(super) fn unused(parts: &[Part], exchange: &Exchange, harmonics: usize) -> Coefficients {
+        let end = parts.iter().fold(Begin::default(), Begin::after);
+        let readings = [0.0; 2 * POINTS];
         Coefficients {
             step: 0.0,
-            parts: parts.iter().map(PartCoefficients::unused).collect(),
+            gain: BlockDiagonal::zero(parts),
+            ramp_gain: BlockDiagonal::zero(parts),
+            free: vec![readings; end.free],
+            ramp: vec![readings; end.free],
+            columns: core::array::from_fn(|_| vec![0.0; end.columns]),
+            turning: vec![[readings; 2]; end.turning],
+            turning_end: core::array::from_fn(|_| vec![0.0; end.turning_end]),
+            rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
     }
 
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
-        let parts: usize = self.parts.iter().map(PartCoefficients::bytes).sum();
-        parts + self.influences.bytes()
+        let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Readings>();
+        let columns: usize = self.columns.iter().map(Vec::len).sum();
+        let numbers = columns + 2 * (self.turning_end[0].len() + self.rotations.len());
+        let matrices = self.gain.bytes() + self.ramp_gain.bytes();
+        readings + numbers * size_of::<f64>() + matrices + self.influences.bytes()
     }
 
     /// Computes everything for steps of length h; `frequencies` are those of all harmonics [rad/s].
@@ -95,52 +131,35 @@ impl Coefficients {
     ) {
         self.step = h;
         self.influences.clear();
-        for (number, (part, coefficients)) in parts.iter().zip(&mut self.parts).enumerate() {
-            for (point, place) in PLACES.into_iter().enumerate() {
-                coefficients.compute_linear(part, h, (point, place), scratch);
-                if point == END {
-                    coefficients.combine_columns(part, scratch);
+        for (rotation, frequency) in self.rotations.iter_mut().zip(frequencies) {
+            let (sine, cosine) = libm::sincos(frequency * h);
+            *rotation = Complex::new(cosine, sine);
+        }
+        let mut begin = Begin::default();
+        for (number, part) in parts.iter().enumerate() {
+            for place in PLACES.into_iter().enumerate() {
+                self.compute_linear(part, begin, h, place, scratch);
+                if place.0 == END {
+                    self.combine_columns(part, begin, scratch);
                 }
                 let influences = &mut self.influences;
-                add_influences(part, number, point, (exchange, influences), scratch);
-                coefficients.compute_turning(part, h, (point, place), frequencies, scratch);
+                add_influences(part, number, place.0, (exchange, influences), scratch);
+                self.compute_turning(part, begin, h, place, (frequencies, scratch));
             }
-        }
-    }
-}
-
-impl PartCoefficients {
-    fn unused(part: &Part) -> PartCoefficients {
-        let (states, actuators) = (part.len(), part.actuators.len());
-        let zeros = |count: usize| vec![0.0; count];
-        let still = |count: usize| vec![Complex::new(0.0, 0.0); count];
-        PartCoefficients {
-            gain: zeros(part.groups.iter().map(|group| group.matrix.len()).sum()),
-            ramp_gain: zeros(part.groups.iter().map(|group| group.matrix.len()).sum()),
-            free: zeros(part.readings() * states),
-            ramp: zeros(part.readings() * states),
-            columns: core::array::from_fn(|_| zeros(states * actuators)),
-            turning: still(part.readings() * part.harmonics.len()),
-            turning_end: still(states * part.harmonics.len()),
+            begin = begin.after(part);
         }
     }
 
-    fn bytes(&self) -> usize {
-        let columns: usize = self.columns.iter().map(Vec::len).sum();
-        let complex = 2 * (self.turning.len() + self.turning_end.len());
-        (2 * (self.gain.len() + self.free.len()) + columns + complex) * size_of::<f64>()
-    }
-
-    /// The free response and the moments at a point.
+    /// The response without forces and the moments at a point.
     fn compute_linear(
         &mut self,
         part: &Part,
+        begin: Begin,
         h: f64,
-        (point, x): (usize, f64),
+        (point, x): Place,
         scratch: &mut Scratch,
     ) {
         let states = part.len();
-        let mut before = 0;
         for group in &part.groups {
             let (first, m) = (group.first, group.matrix.nrows());
             scratch.phi.evaluate(&group.matrix, x * h);
@@ -151,20 +170,18 @@ impl PartCoefficients {
             for (factor, k, gain, seen) in responses {
                 let phi = scratch.phi.get(k);
                 if point == END {
-                    let own = gain[before..before + m * m].iter_mut();
-                    own.zip(phi).for_each(|(gain, phi)| *gain = factor * phi);
+                    gain.set(part, group, factor, phi);
                 }
                 for (what, rows) in part.sensor_rows.iter().enumerate() {
                     for (sensor, row) in rows.column_iter().enumerate() {
                         let row = &row.as_slice()[first..first + m];
-                        let reading = part.reading(point, what, sensor);
-                        for (j, phi) in phi.chunks_exact(m).enumerate() {
-                            seen[(first + j) * part.readings() + reading] = factor * dot(row, phi);
+                        let own = begin.free + sensor * states + first;
+                        for (readings, phi) in seen[own..].iter_mut().zip(phi.chunks_exact(m)) {
+                            readings[what * POINTS + point] = factor * dot(row, phi);
                         }
                     }
                 }
             }
-            before += m * m;
             let mut power = h;
             for (k, moments) in scratch.moments.iter_mut().enumerate() {
                 power *= x;
@@ -182,26 +199,27 @@ impl PartCoefficients {
     }
 
     /// f_j at the end from the moments there.
-    fn combine_columns(&mut self, part: &Part, scratch: &Scratch) {
+    fn combine_columns(&mut self, part: &Part, begin: Begin, scratch: &Scratch) {
         let used = part.len() * part.actuators.len();
-        for (column, l) in self.columns.iter_mut().zip(&LAGRANGE) {
-            column.fill(0.0);
+        for (columns, l) in self.columns.iter_mut().zip(&LAGRANGE) {
+            let own = &mut columns[begin.columns..begin.columns + used];
+            own.fill(0.0);
             for (l, moment) in l.iter().zip(&scratch.moments) {
-                add_scaled(*l, &moment[..used], column);
+                add_scaled(*l, &moment[..used], own);
             }
         }
     }
 
-    /// The response to the harmonics at a point, per unit of e^(i angle) at the start of the step.
+    /// The response to the harmonics at a point: Re of it times e^(i angle) at the start of the step.
     fn compute_turning(
         &mut self,
         part: &Part,
+        begin: Begin,
         h: f64,
-        (point, x): (usize, f64),
-        frequencies: &[f64],
-        scratch: &mut Scratch,
+        (point, x): Place,
+        (frequencies, scratch): (&[f64], &mut Scratch),
     ) {
-        let states = part.len();
+        let (states, sensors) = (part.len(), part.sensors.len());
         for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
             let response = &mut scratch.response[..states];
             for group in &part.groups {
@@ -214,15 +232,22 @@ impl PartCoefficients {
                     &mut response[range],
                 );
             }
-            let own = &mut self.turning[number * part.readings()..(number + 1) * part.readings()];
+            let own = &mut self.turning[begin.turning + number * sensors..][..sensors];
             for (what, rows) in part.sensor_rows.iter().enumerate() {
-                for (sensor, row) in rows.column_iter().enumerate() {
-                    let seen = response.iter().zip(row.iter()).map(|(r, w)| r * *w).sum();
-                    own[part.reading(point, what, sensor)] = seen;
+                for (row, readings) in rows.column_iter().zip(&mut *own) {
+                    let seen: Complex<f64> =
+                        response.iter().zip(row.iter()).map(|(r, w)| r * *w).sum();
+                    readings[0][what * POINTS + point] = seen.re;
+                    readings[1][what * POINTS + point] = -seen.im;
                 }
             }
             if point == END {
-                self.turning_end[number * states..(number + 1) * states].copy_from_slice(response);
+                let first = begin.turning_end + number * states;
+                let [cosine, sine] = &mut self.turning_end;
+                let both = cosine[first..].iter_mut().zip(&mut sine[first..]);
+                for (response, (cosine, sine)) in response.iter().zip(both) {
+                    (*cosine, *sine) = (response.re, -response.im);
+                }
             }
         }
     }

@@ -12,11 +12,9 @@
 //! just opening, e counts with a typical stiffness. w is the frequency of the force by itself, zeta the lightest damping ratio in it.
 
 use super::super::march::{Span, Task};
-use super::super::{Forcing, Piece, State};
+use super::super::{Forcing, State};
 use super::kernel::Kernel;
-use super::polynomials::{CHECKS, END, LAGRANGE_AT_CHECKS, NODES, PLACES};
-use super::sight::{Sight, copy, instant};
-use crate::linalg::dot;
+use super::polynomials::END;
 
 /// What errors of single steps amount to when they add up over n steps, as part of n times the largest: they have either
 /// sign. Measured over tolerances from 1e-2 to 1e-8, with smooth and with stepped stiffness, the error is then 0.01 to
@@ -24,41 +22,8 @@ use crate::linalg::dot;
 const SAFETY: f64 = 0.25;
 
 impl Kernel {
-    /// Error of the step just swept in units of the bound.
-    pub(super) fn error<F: Forcing>(
-        &mut self,
-        task: Task<'_, F>,
-        state: &State,
-        span: Span,
-        pieces: &[Piece],
-        index: usize,
-    ) -> f64 {
-        let Sight {
-            points,
-            trial,
-            forces,
-            present,
-            ..
-        } = &mut self.sight;
-        copy(&points[END], trial);
-        for (check, (point, weights)) in CHECKS.into_iter().zip(LAGRANGE_AT_CHECKS).enumerate() {
-            let at = instant(&points[point], span.at(PLACES[point]), &state.slow);
-            task.forcing.forces_into(at, pieces, present);
-            for (present, forces) in present.iter_mut().zip(forces.iter()) {
-                *present -= dot(forces, &weights);
-            }
-            let influences = &self.lengths[index].influences;
-            self.exchange
-                .exert_missing(influences, check, present, trial);
-        }
-        let at = instant(trial, span.end, &state.slow);
-        task.forcing.forces_into(at, pieces, present);
-        self.counts.evaluations += CHECKS.len() as u64 + 1;
-        self.relative_error(task, state, span)
-    }
-
-    /// The forces of the trial against those at the end, on the scale of every monitor.
-    fn relative_error<F: Forcing>(&self, task: Task<'_, F>, state: &State, span: Span) -> f64 {
+    /// Error of the step in units of the bound, on the scale of every monitor.
+    pub(super) fn error<F: Forcing>(&self, task: Task<'_, F>, state: &State, span: Span) -> f64 {
         let (sight, control) = (&self.sight, &state.control);
         let elapsed = control.elapsed + span.step;
         let mut worst: f64 = 0.0;
@@ -74,7 +39,7 @@ impl Kernel {
             let scale = SAFETY * steps / (reference * task.tolerance);
             let deflection = |i: usize| sight.trial[0][i] - sight.points[END][0][i];
             let force = |i: usize| {
-                let change = sight.present[i] - sight.forces[i][NODES - 1];
+                let change = self.nodes.change[i];
                 let hidden = monitor.stiffness * deflection(i);
                 // Written so that a NaN stays one.
                 if hidden.abs() > change.abs() {

@@ -171,9 +171,15 @@ impl<F: Forcing> View<'_, F> {
         let mut trial = core::mem::take(&mut sight.trial);
         let [left, right] = between.map(|index| Self::seen(sight, index));
         for coupling in 0..left[0].len() {
-            let end = |seen: &[Vec<f64>; 2]| [seen[0][coupling], seen[1][coupling] * width];
-            let (value, slope) = hermite(end(left), end(right), s);
-            (trial[0][coupling], trial[1][coupling]) = (value, slope / width);
+            // Movements, because the slope is a difference over a width that may be tiny.
+            let moved = between.map(|index| match index {
+                0 => 0.0,
+                index => sight.moved(coupling, IN_TIME[index - 1]),
+            });
+            let end = |moved: f64, seen: &[Vec<f64>; 2]| [moved, seen[1][coupling] * width];
+            let (value, slope) = hermite(end(moved[0], left), end(moved[1], right), s);
+            trial[0][coupling] = sight.start[0][coupling] + value;
+            trial[1][coupling] = slope / width;
         }
         let margin = self.margin(&trial, part);
         sight.trial = trial;

@@ -1,8 +1,8 @@
 //! How the forces of couplings change what couplings see.
 //!
 //! Every block that a coupling looks at and another one acts on joins the two. Over all blocks that is a sparse list of
-//! **pairs** (sensor, actuator); for one step length each pair has a number for every point of the step, for deflection
-//! and rate, and for the force at every node:
+//! **pairs** (sensor, actuator), sorted by sensor; for one step length each pair has a number for the force at every node, for
+//! every point of the step, for deflection and rate:
 //!
 //! ```text
 //!   d(point) = free response - sum over pairs and nodes of e_d F_actuator(node)          d' likewise with e_v
@@ -10,9 +10,10 @@
 
 use super::part::Part;
 use super::polynomials::{BUBBLES, CHECKS, LAGRANGE, NODES, POINTS, POWERS};
+use super::sight::{Readings, accumulate};
 
 /// A coupling that sees and one that acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) sensor: usize,
     pub(super) actuator: usize,
@@ -26,65 +27,62 @@ pub(super) struct Exchange {
     of_part: Vec<Vec<usize>>,
 }
 
-/// What the forces at the nodes do to one pair's sensor: to its deflection, to its rate.
-type Influence = [[f64; NODES]; 2];
+/// What the force at every node does to one pair's sensor.
+pub(super) type Influence = [Readings; NODES];
 
 /// The numbers of all pairs for one step length.
 #[derive(Debug, Clone)]
 pub(super) struct Influences {
-    points: [Vec<Influence>; POINTS],
+    pub(super) of_pairs: Vec<Influence>,
     /// Deflection and rate at the end per bubble of the force at either check.
     bubbles: Vec<[[f64; CHECKS.len()]; 2]>,
 }
 
 impl Exchange {
     pub(super) fn between(parts: &[Part]) -> Exchange {
-        let mut pairs: Vec<Pair> = Vec::new();
-        let mut of_part = Vec::new();
-        for part in parts {
-            let mut own = Vec::new();
-            for &actuator in &part.actuators {
-                for &sensor in &part.sensors {
-                    let pair = Pair { sensor, actuator };
-                    let known = pairs.iter().position(|&other| other == pair);
-                    own.push(known.unwrap_or(pairs.len()));
-                    if known.is_none() {
-                        pairs.push(pair);
-                    }
-                }
-            }
-            of_part.push(own);
+        let joined = |part: &Part| -> Vec<Pair> {
+            let actuators = part.actuators.iter();
+            let pairs = actuators.flat_map(|&actuator| {
+                let sensors = part.sensors.iter();
+                sensors.map(move |&sensor| Pair { sensor, actuator })
+            });
+            pairs.collect()
+        };
+        let mut pairs: Vec<Pair> = parts.iter().flat_map(joined).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let number = |pair: &Pair| pairs.partition_point(|other| other < pair);
+        let of_part = |part: &Part| joined(part).iter().map(number).collect();
+        Exchange {
+            of_part: parts.iter().map(of_part).collect(),
+            pairs,
         }
-        Exchange { pairs, of_part }
     }
 
-    /// Deflections and rates at a point become smaller by what the forces do to them.
+    /// Deflections and rates become smaller by what the forces do to them.
     pub(super) fn exert(
         &self,
         influences: &Influences,
-        point: usize,
         forces: &[[f64; NODES]],
-        [deflection, rate]: &mut [Vec<f64>; 2],
+        seen: &mut [Readings],
     ) {
-        for (pair, [on_deflection, on_rate]) in self.pairs.iter().zip(&influences.points[point]) {
-            let force = &forces[pair.actuator];
-            deflection[pair.sensor] -= product(on_deflection, force);
-            rate[pair.sensor] -= product(on_rate, force);
+        for (pair, influence) in self.pairs.iter().zip(&influences.of_pairs) {
+            let against = forces[pair.actuator].map(|force| -force);
+            accumulate(&mut seen[pair.sensor], influence, &against);
         }
     }
 
-    /// Deflections and rates at the end become smaller by what is missing in the forces at a check.
+    /// Deflections and rates at the end become smaller by what is missing in the forces at the checks.
     pub(super) fn exert_missing(
         &self,
         influences: &Influences,
-        check: usize,
-        missing: &[f64],
+        missing: &[[f64; CHECKS.len()]],
         [deflection, rate]: &mut [Vec<f64>; 2],
     ) {
         for (pair, [on_deflection, on_rate]) in self.pairs.iter().zip(&influences.bubbles) {
-            let force = missing[pair.actuator];
-            deflection[pair.sensor] -= on_deflection[check] * force;
-            rate[pair.sensor] -= on_rate[check] * force;
+            let force = &missing[pair.actuator];
+            deflection[pair.sensor] -= product(on_deflection, force);
+            rate[pair.sensor] -= product(on_rate, force);
         }
     }
 }
@@ -94,21 +92,19 @@ impl Influences {
     pub(super) fn unused(exchange: &Exchange) -> Influences {
         let count = exchange.pairs.len();
         Influences {
-            points: core::array::from_fn(|_| vec![[[0.0; NODES]; 2]; count]),
+            of_pairs: vec![[[0.0; 2 * POINTS]; NODES]; count],
             bubbles: vec![[[0.0; CHECKS.len()]; 2]; count],
         }
     }
 
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
-        self.bubbles.len() * (POINTS * size_of::<Influence>() + size_of::<[[f64; 2]; 2]>())
+        self.bubbles.len() * (size_of::<Influence>() + size_of::<[[f64; 2]; 2]>())
     }
 
     /// No influence, before the parts add theirs.
     pub(super) fn clear(&mut self) {
-        for points in &mut self.points {
-            points.fill([[0.0; NODES]; 2]);
-        }
+        self.of_pairs.fill([[0.0; 2 * POINTS]; NODES]);
         self.bubbles.fill([[0.0; CHECKS.len()]; 2]);
     }
 
@@ -122,8 +118,8 @@ impl Influences {
         seen: &[f64; POWERS],
     ) {
         let pair = exchange.of_part[part][entry];
-        for (target, polynomial) in self.points[point][pair][what].iter_mut().zip(&LAGRANGE) {
-            *target += product(polynomial, seen);
+        for (target, polynomial) in self.of_pairs[pair].iter_mut().zip(&LAGRANGE) {
+            target[what * POINTS + point] += product(polynomial, seen);
         }
     }
 

@@ -7,23 +7,26 @@ use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, Step
 use super::coefficients::{Coefficients, Scratch};
 use super::events::Sighting;
 use super::exchange::Exchange;
-use super::part::{Part, PartMotion, take_apart};
-use super::polynomials::{END, NODES, PLACES, POINTS};
-use super::sight::{Sight, copy, instant};
-use crate::linalg::{add_scaled, dot, multiply_add};
+use super::motion::Motion;
+use super::nodes::Nodes;
+use super::part::{Part, take_apart};
+use super::polynomials::NODES;
+use super::sight::{Sight, accumulate, instant};
+use crate::linalg::{add_scaled, dot};
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
 const LENGTHS: usize = 64;
 const MEMORY: usize = 16 << 20;
-/// Sweeps after which a step counts as too long, and what part of it is tried then.
-const MOST_SWEEPS: usize = 25;
+/// What part of a step is tried whose forces are not found.
 const SHORTER: f64 = 0.4;
-/// Change of the forces in the last sweep relative to the tolerance, and the smallest one above rounding.
-const SWEEP_ACCURACY: (f64, f64) = (1e-4, 1e-13);
 /// Order of the accumulated error in the step.
 const ORDER: f64 = 6.0;
 /// Steps with more than the bound are still accepted up to here: the estimate is no sharper.
 const ACCEPTED: f64 = 1.5;
+/// The next step is at most so many times longer; the error it would have is that to the power of the order.
+const GROWTH: f64 = 2.0;
+/// Steps after which the angles of the harmonics are computed anew from the time: turning them adds rounding.
+const MOST_TURNS: u32 = 8;
 
 /// Everything a step needs.
 #[derive(Debug, Clone)]
@@ -33,55 +36,68 @@ pub(super) struct Kernel {
     used_slow: Vec<f64>,
     present_slow: Vec<f64>,
     parts: Vec<Part>,
-    motion: Vec<PartMotion>,
-    /// Whether loads from outside change in this call.
-    ramps: bool,
+    motion: Motion,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
     pub(super) lengths: Vec<Coefficients>,
     next_length: usize,
     scratch: Scratch,
     pub(super) sight: Sight,
-    pub(super) counts: Counts,
+    pub(super) nodes: Nodes,
+    /// Steps since the angles of the harmonics were computed.
+    turns: u32,
+    counts: Counts,
 }
 
 impl Kernel {
     pub(super) fn new(system: &System, harmonics: &[Harmonic]) -> Kernel {
         let parts = take_apart(system, &system.blocks, harmonics);
         let exchange = Exchange::between(&parts);
-        let unused = Coefficients::unused(&parts, &exchange);
+        let unused = Coefficients::unused(&parts, &exchange, harmonics.len());
         let affordable = (MEMORY / unused.bytes().max(1)).clamp(4, LENGTHS);
+        let couplings = system.couplings.len();
         Kernel {
             blocks: system.blocks.clone(),
             used_slow: system.slow.clone(),
             present_slow: system.slow.clone(),
-            motion: parts.iter().map(PartMotion::at_rest).collect(),
-            ramps: false,
+            motion: Motion::new(&parts),
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
             next_length: 0,
             scratch: Scratch::new(&parts),
-            sight: Sight::new(system.couplings.len(), harmonics.len()),
+            sight: Sight::new(couplings, harmonics.len()),
+            nodes: Nodes::new(couplings, &exchange),
+            turns: MOST_TURNS,
             counts: Counts::default(),
             exchange,
             parts,
         }
     }
 
-    /// Decoupled states from displacements and velocities.
-    pub(super) fn take_over<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) {
-        self.follow_slow(task, state);
-        for (part, motion) in self.parts.iter().zip(&mut self.motion) {
-            motion.take_over(part, state, task.forcing.loads());
+    /// Work done so far.
+    pub(super) fn counts(&self) -> Counts {
+        Counts {
+            evaluations: self.counts.evaluations + self.nodes.evaluations,
+            ..self.counts
         }
-        self.ramps = task.forcing.loads().iter().any(|load| load.rate != 0.0);
     }
 
-    /// Displacements and velocities from decoupled states.
-    pub(super) fn hand_back(&self, state: &mut State) -> Result<(), StepError> {
-        for (part, motion) in self.parts.iter().zip(&self.motion) {
-            motion.hand_back(part, state);
+    /// Prepares for a call that begins with this state.
+    pub(super) fn take_over<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) {
+        self.follow_slow(task, state);
+        if state.decoupled.is_empty() {
+            self.motion.take_apart(&self.parts, state);
+        } else {
+            self.motion.states.copy_from_slice(&state.decoupled);
         }
+        self.motion.set_loads(&self.parts, task.forcing.loads());
+        self.turns = MOST_TURNS;
+    }
+
+    /// Ends the call: writes the state.
+    pub(super) fn hand_back(&self, state: &mut State) -> Result<(), StepError> {
+        state.decoupled.clone_from(&self.motion.states);
+        self.motion.put_together(&self.parts, state);
         let mut values = state.position.iter().chain(&state.velocity);
         if values.all(|value| value.is_finite()) {
             Ok(())
@@ -97,13 +113,16 @@ impl Kernel {
             .slow_into(&state.position, &state.velocity, present);
         if task.forcing.is_stale(&state.slow, present) {
             state.slow.clone_from(present);
+            state.decoupled.clear();
         }
         if self.used_slow != state.slow {
             self.used_slow.clone_from(&state.slow);
             task.forcing.blocks_into(&self.used_slow, &mut self.blocks);
             self.parts = take_apart(task.system, &self.blocks, task.forcing.harmonics());
+            self.motion = Motion::new(&self.parts);
             self.scratch = Scratch::new(&self.parts);
-            let unused = Coefficients::unused(&self.parts, &self.exchange);
+            let harmonics = self.frequencies.len();
+            let unused = Coefficients::unused(&self.parts, &self.exchange, harmonics);
             self.lengths.fill(unused);
             self.counts.refreshes += 1;
         }
@@ -122,117 +141,107 @@ impl Kernel {
         index
     }
 
-    /// What the couplings see at the points without forces.
-    fn look_ahead(&mut self, index: usize, elapsed: f64) {
-        let sight = &mut self.sight;
-        for free in &mut sight.free {
-            copy(&sight.start, free);
+    /// The angles of the harmonics at a time, unless they have been turned there.
+    fn find_angles(&mut self, harmonics: &[Harmonic], time: f64) {
+        if self.turns < MOST_TURNS {
+            return;
         }
-        let parts = self.parts.iter().zip(&self.lengths[index].parts);
-        for ((part, coefficients), motion) in parts.zip(&mut self.motion) {
-            motion.differentiate(part, elapsed);
-            motion.readings.fill(0.0);
-            multiply_add(
-                1.0,
-                &coefficients.free,
-                &motion.derivative,
-                &mut motion.readings,
-            );
-            if self.ramps {
-                let (ramp, rate) = (&coefficients.ramp, &motion.load_rate);
-                multiply_add(1.0, ramp, rate, &mut motion.readings);
-            }
-            let turning = coefficients.turning.chunks_exact(part.readings().max(1));
-            for ((harmonic, _), turning) in part.harmonics.iter().zip(turning) {
-                let angle = sight.angles[*harmonic];
-                for (reading, turned) in motion.readings.iter_mut().zip(turning) {
-                    *reading += (angle * turned).re;
-                }
-            }
-            for (point, free) in sight.free.iter_mut().enumerate() {
-                for (what, free) in free.iter_mut().enumerate() {
-                    let first = part.reading(point, what, 0);
-                    for (reading, &sensor) in motion.readings[first..].iter().zip(&part.sensors) {
-                        free[sensor] += reading;
-                    }
-                }
-            }
+        self.turns = 0;
+        for (angle, harmonic) in self.sight.angles.iter_mut().zip(harmonics) {
+            let (sine, cosine) = libm::sincos(harmonic.angle(time));
+            *angle = Complex::new(cosine, sine);
         }
     }
 
-    /// Solves for the forces at the nodes. Gives whether they were found.
-    fn sweep<F: Forcing>(
-        &mut self,
-        task: Task<'_, F>,
-        slow: &[f64],
-        span: Span,
-        pieces: &[Piece],
-        index: usize,
-    ) -> bool {
-        let accuracy = (SWEEP_ACCURACY.0 * task.tolerance).max(SWEEP_ACCURACY.1);
-        let influences = &self.lengths[index].influences;
-        for forces in &mut self.sight.forces {
-            *forces = [forces[0]; NODES];
-        }
-        for _ in 0..MOST_SWEEPS {
-            // Changes of one coupling count relative to its own force, those of all to the largest.
-            let sizes = self.sight.forces.iter().flatten().map(|force| force.abs());
-            let least = SWEEP_ACCURACY.1 * sizes.fold(0.0, f64::max);
-            let mut settled = true;
-            for point in 0..=END {
-                self.sight.look(&self.exchange, influences, point);
+    /// What the couplings see at the points without forces, some seconds after the start of the call.
+    fn look_ahead(&mut self, index: usize, elapsed: f64) {
+        let (motion, sight) = (&mut self.motion, &mut self.sight);
+        let coefficients = &self.lengths[index];
+        motion.differentiate(elapsed);
+        sight.stand_still();
+        let (mut first, mut turning) = (0, coefficients.turning.iter());
+        for part in &self.parts {
+            let (states, own) = (part.len(), part.states());
+            for &sensor in &part.sensors {
+                let (rows, free) = (first..first + states, &mut sight.free[sensor]);
+                accumulate(
+                    free,
+                    &coefficients.free[rows.clone()],
+                    &motion.derivative[own.clone()],
+                );
+                if motion.ramps {
+                    accumulate(
+                        free,
+                        &coefficients.ramp[rows],
+                        &motion.load_rate[own.clone()],
+                    );
+                }
+                first += states;
             }
-            for point in 0..=END {
-                let sight = &mut self.sight;
-                let at = instant(&sight.points[point], span.at(PLACES[point]), slow);
-                task.forcing.forces_into(at, pieces, &mut sight.present);
-                for (forces, &present) in sight.forces.iter_mut().zip(&sight.present) {
-                    let force = &mut forces[point + 1];
-                    let size = present.abs().max(force.abs()).max(least);
-                    // Written so that neither NaN nor infinity is settled.
-                    settled &= (present - *force).abs() <= accuracy * size && size < f64::INFINITY;
-                    *force = present;
+            for (harmonic, _) in &part.harmonics {
+                let angle = sight.angles[*harmonic];
+                for (&sensor, turned) in part.sensors.iter().zip(&mut turning) {
+                    accumulate(&mut sight.free[sensor], turned, &[angle.re, angle.im]);
                 }
             }
-            self.counts.evaluations += NODES as u64 - 1;
-            if settled {
-                // The points follow the last forces.
-                for point in 0..POINTS {
-                    self.sight.look(&self.exchange, influences, point);
-                }
-                return true;
-            }
         }
-        false
     }
 
     /// Moves to the end of the step.
     fn accept(&mut self, system: &System, state: &mut State, span: Span, index: usize) {
-        let sight = &mut self.sight;
-        let parts = self.parts.iter().zip(&self.lengths[index].parts);
-        for ((part, coefficients), motion) in parts.zip(&mut self.motion) {
-            motion.advance(part, coefficients, self.ramps);
-            for (node, columns) in coefficients.columns.iter().enumerate() {
-                for (column, &actuator) in columns.chunks_exact(part.len()).zip(&part.actuators) {
-                    let force = sight.forces[actuator][node];
-                    add_scaled(-force, column, &mut motion.states);
-                }
+        let (motion, sight) = (&mut self.motion, &mut self.sight);
+        let coefficients = &self.lengths[index];
+        motion.advance(&coefficients.gain, &coefficients.ramp_gain);
+        let (mut column, mut turned) = (0, 0);
+        for part in &self.parts {
+            let own = &mut motion.states[part.states()];
+            let states = own.len();
+            for &actuator in &part.actuators {
+                let rows = column..column + states;
+                let columns = coefficients
+                    .columns
+                    .each_ref()
+                    .map(|one| &one[rows.clone()]);
+                push(own, columns, sight.forces[actuator]);
+                column += states;
             }
-            let turning = coefficients.turning_end.chunks_exact(part.len().max(1));
-            for ((harmonic, _), turning) in part.harmonics.iter().zip(turning) {
-                let angle = sight.angles[*harmonic];
-                for (state, turned) in motion.states.iter_mut().zip(turning) {
-                    *state += (angle * turned).re;
-                }
+            for (harmonic, _) in &part.harmonics {
+                let [cosine, sine] = &coefficients.turning_end;
+                let (rows, angle) = (turned..turned + states, sight.angles[*harmonic]);
+                add_scaled(angle.re, &cosine[rows.clone()], own);
+                add_scaled(angle.im, &sine[rows], own);
+                turned += states;
             }
         }
+        for (angle, rotation) in sight.angles.iter_mut().zip(&coefficients.rotations) {
+            *angle *= rotation;
+        }
+        self.turns += 1;
         for (monitor, squares) in system.monitors.iter().zip(&mut state.control.squares) {
             *squares += span.step * sight.mean_square(monitor);
         }
-        sight.move_on(END);
+        sight.move_on();
         state.control.elapsed += span.step;
         state.time = span.end;
         self.counts.steps += 1;
+    }
+}
+
+/// states -= sum over nodes of column F.
+fn push(states: &mut [f64], [c0, c1, c2, c3]: [&[f64]; NODES], [f0, f1, f2, f3]: [f64; NODES]) {
+    let columns = c0.iter().zip(c1).zip(c2.iter().zip(c3));
+    for (state, ((c0, c1), (c2, c3))) in states.iter_mut().zip(columns) {
+        *state -= (c0 * f0 + c1 * f1) + (c2 * f2 + c3 * f3);
+    }
+}
+
+/// By how much longer the next step may be, for an error in units of the bound.
+fn growth(error: f64) -> f64 {
+    let room = 0.8 / error.max(1e-12);
+    if room >= GROWTH * GROWTH * GROWTH * GROWTH * GROWTH * GROWTH {
+        GROWTH
+    } else {
+        libm::pow(room, 1.0 / ORDER).max(0.2)
     }
 }
 
@@ -241,10 +250,11 @@ impl Method for Kernel {
         for target in &mut self.sight.start {
             target.fill(0.0);
         }
-        for (part, motion) in self.parts.iter().zip(&self.motion) {
+        for part in &self.parts {
+            let own = &self.motion.states[part.states()];
             for (rows, target) in part.sensor_rows.iter().zip(&mut self.sight.start) {
                 for (row, &sensor) in rows.column_iter().zip(&part.sensors) {
-                    target[sensor] += dot(row.as_slice(), &motion.states);
+                    target[sensor] += dot(row.as_slice(), own);
                 }
             }
         }
@@ -273,12 +283,14 @@ impl Method for Kernel {
         endings: &mut [Ending],
     ) -> Result<Outcome, StepError> {
         let index = self.coefficients_for(canonical(span.step));
-        for (angle, harmonic) in self.sight.angles.iter_mut().zip(task.forcing.harmonics()) {
-            let (sine, cosine) = libm::sincos(harmonic.angle(span.start));
-            *angle = Complex::new(cosine, sine);
-        }
+        self.find_angles(task.forcing.harmonics(), span.start);
         self.look_ahead(index, span.start - task.forcing.since());
-        if !self.sweep(task, &state.slow, span, pieces, index) {
+        let at = (span, state.slow.as_slice());
+        let exchange = (&self.exchange, &self.lengths[index].influences);
+        let found = self
+            .nodes
+            .solve(task, at, pieces, exchange, &mut self.sight);
+        if !found {
             self.counts.rejected += 1;
             if self.sight.forces.iter().all(|forces| forces[0].is_finite()) {
                 return Ok(Outcome::Rejected { ratio: SHORTER });
@@ -293,11 +305,15 @@ impl Method for Kernel {
             }
             Sighting::Clear => {}
         }
-        let error = self.error(task, state, span, pieces, index);
+        let at = (span, state.slow.as_slice());
+        let exchange = (&self.exchange, &self.lengths[index].influences);
+        self.nodes
+            .look_for_errors(task, at, pieces, exchange, &mut self.sight);
+        let error = self.error(task, state, span);
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: span.end });
         }
-        let ratio = libm::pow(0.8 / error.max(1e-12), 1.0 / ORDER).clamp(0.2, 2.0);
+        let ratio = growth(error);
         if error > ACCEPTED {
             self.counts.rejected += 1;
             return Ok(Outcome::Rejected { ratio });

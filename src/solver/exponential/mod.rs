@@ -3,7 +3,7 @@
 //! ```text
 //!   eta' = B eta + load(t) - sum over m of b_m F_m(t, d, d')       decoupled states of every block (`part`)
 //!   F_m(s) = sum over j of l_j(s/h) F_m(s_j)                       cubic through four Lobatto nodes (`polynomials`)
-//!   F_j = F(s_j, d(s_j), d'(s_j))                                  solved by iteration: the forces are few (`kernel`)
+//!   F_j = F(s_j, d(s_j), d'(s_j))                                  solved by iteration: the forces are few (`nodes`)
 //! ```
 //!
 //! However fast a mode of the blocks is, the step does not feel it: only the forces have to be followed. Torques,
@@ -14,11 +14,14 @@
 //! Sources: Hochbruck, Ostermann, Acta Numerica 19 (2010); collocation on Lobatto points: Hairer, Wanner, Solving Ordinary
 //! Differential Equations II, IV.5.
 
+mod block_diagonal;
 mod coefficients;
 mod control;
 mod events;
 mod exchange;
 mod kernel;
+mod motion;
+mod nodes;
 mod part;
 mod polynomials;
 mod sight;
@@ -54,7 +57,7 @@ impl Exponential {
 
     /// Work done since the workspace was made.
     pub fn counts(&self) -> Counts {
-        self.march.counts(self.kernel.counts)
+        self.march.counts(self.kernel.counts())
     }
 
     /// Advances the state to exactly `until`; a time that is not ahead changes nothing. After an error the

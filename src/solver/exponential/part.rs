@@ -8,12 +8,11 @@
 //! Before A is taken apart the displacements are scaled with sqrt(K_ii), so that both halves of x measure
 //! energy: without damping A is then skew-symmetric and V orthogonal.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 
-use super::super::{Block, Harmonic, Ramp, State, System};
-use super::coefficients::PartCoefficients;
-use super::polynomials::POINTS;
-use crate::linalg::{Group, add_scaled, decouple, multiply_add};
+use super::super::{Block, Harmonic, System};
+use super::block_diagonal::rank;
+use crate::linalg::{Decoupling, Group, decouple};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
 const SOFTEST: f64 = 1.0;
@@ -23,12 +22,16 @@ const SOFTEST: f64 = 1.0;
 pub(super) struct Part {
     /// The block's coordinates.
     pub(super) coordinates: core::ops::Range<usize>,
+    /// Its first state among those of all parts.
+    pub(super) first: usize,
     /// V: displacements on top, velocities below, 2n x 2n.
     pub(super) shapes: DMatrix<f64>,
     /// V^-1, 2n x 2n.
     pub(super) inverse: DMatrix<f64>,
     /// B.
     pub(super) groups: Vec<Group>,
+    /// So many of the states stand in pairs.
+    pub(super) paired: usize,
     /// The couplings whose rows look at the block.
     pub(super) sensors: Vec<usize>,
     /// Their deflections and rates per eta: one column each, 2n x sensors.
@@ -44,72 +47,58 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Takes block number `index` apart. `harmonics`: cosine and sine loads of the block with their numbers.
-    pub(super) fn new(
+    /// Takes block number `index` apart; `first` is its first state. `harmonics`: cosine and sine loads of the block with
+    /// their numbers.
+    fn new(
         system: &System,
-        index: usize,
+        (index, first): (usize, usize),
         block: &Block,
-        harmonics: &[(usize, Vec<f64>, Vec<f64>)],
+        harmonics: &[(usize, [Vec<f64>; 2])],
     ) -> Part {
         let n = block.len();
-        let scale: Vec<f64> = (0..n)
-            .map(|i| block.stiffness[(i, i)].max(SOFTEST).sqrt())
-            .collect();
-        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-        for i in 0..n {
-            matrix[(i, n + i)] = scale[i];
-            for j in 0..n {
-                matrix[(n + i, j)] = -block.stiffness[(i, j)] / scale[j];
-                matrix[(n + i, n + j)] = -block.damping[(i, j)];
-            }
-        }
-        let mut decoupled = decouple(&matrix);
-        for (i, scale) in scale.iter().enumerate() {
-            decoupled.shapes.row_mut(i).scale_mut(1.0 / scale);
-            decoupled.inverse.column_mut(i).scale_mut(*scale);
-        }
-        let (shapes, inverse) = (decoupled.shapes, decoupled.inverse);
-        let input = inverse.columns(n, n);
-        let touching = |rows: &dyn Fn(usize) -> Option<Vec<f64>>| -> (Vec<usize>, Vec<Vec<f64>>) {
-            (0..system.couplings.len())
+        let Decoupling {
+            shapes,
+            inverse,
+            groups,
+        } = in_order(take_apart_block(block));
+        let input = inverse.columns(n, n).into_owned();
+        let in_states = |load: &[f64]| &input * DVector::from_row_slice(load);
+        let touching = |rows: &dyn Fn(usize) -> Option<Vec<f64>>| -> (Vec<usize>, DMatrix<f64>) {
+            let (numbers, rows): (Vec<usize>, Vec<Vec<f64>>) = (0..system.couplings.len())
                 .filter_map(|coupling| Some((coupling, rows(coupling)?)))
-                .unzip()
+                .unzip();
+            let columns = DMatrix::from_fn(n, rows.len(), |i, j| rows[j][i]);
+            (numbers, columns)
         };
         let (sensors, rows) = touching(&|coupling| system.couplings[coupling].row.in_block(index));
         let (actuators, columns) =
             touching(&|coupling| system.couplings[coupling].column.in_block(index));
-        let as_columns =
-            |vectors: &[Vec<f64>]| DMatrix::from_fn(n, vectors.len(), |i, j| vectors[j][i]);
-        let rows = as_columns(&rows);
-        let in_states = |load: &[f64]| input * nalgebra::DVector::from_row_slice(load);
         let loads = system.loads.iter().map(|column| column.in_block(index));
         let loads = loads.enumerate().filter_map(|(number, column)| {
             let column = in_states(&column?);
             Some((number, column.as_slice().to_vec()))
         });
-        let loads = loads.collect();
-        let harmonics = harmonics
-            .iter()
-            .map(|(number, cosine, sine)| {
-                let (cosine, sine) = (in_states(cosine), in_states(sine));
-                let load = cosine.iter().zip(sine.iter());
-                (*number, load.map(|(c, s)| Complex::new(*c, -*s)).collect())
-            })
-            .collect();
+        let harmonics = harmonics.iter().map(|(number, [cosine, sine])| {
+            let (cosine, sine) = (in_states(cosine), in_states(sine));
+            let load = cosine.iter().zip(sine.iter());
+            (*number, load.map(|(c, s)| Complex::new(*c, -*s)).collect())
+        });
         Part {
             coordinates: block.range(),
+            first,
             sensor_rows: [
                 shapes.rows(0, n).transpose() * &rows,
                 shapes.rows(n, n).transpose() * &rows,
             ],
-            actuator_columns: input * as_columns(&columns),
-            groups: decoupled.groups,
+            actuator_columns: &input * columns,
+            loads: loads.collect(),
+            harmonics: harmonics.collect(),
+            paired: paired(&groups),
+            groups,
             shapes,
             inverse,
             sensors,
             actuators,
-            loads,
-            harmonics,
         }
     }
 
@@ -118,125 +107,68 @@ impl Part {
         self.shapes.ncols()
     }
 
-    /// Number of deflections and rates of all sensors at all points.
-    pub(super) fn readings(&self) -> usize {
-        2 * POINTS * self.sensors.len()
-    }
-
-    /// The number of one of them: deflection (`what` = 0) or rate (1) of a sensor at a point.
-    pub(super) fn reading(&self, point: usize, what: usize, sensor: usize) -> usize {
-        (2 * point + what) * self.sensors.len() + sensor
+    /// Its states among those of all parts.
+    pub(super) fn states(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.len()
     }
 }
 
 /// All blocks taken apart.
 pub(super) fn take_apart(system: &System, blocks: &[Block], harmonics: &[Harmonic]) -> Vec<Part> {
+    let mut first = 0;
     let part = |(index, block): (usize, &Block)| {
-        let own: Vec<_> = harmonics
-            .iter()
-            .enumerate()
-            .filter_map(|(number, harmonic)| {
-                let [cosine, sine] = harmonic.on_block(block)?;
-                Some((number, cosine, sine))
-            })
+        let numbered = harmonics.iter().enumerate();
+        let own: Vec<_> = numbered
+            .filter_map(|(number, harmonic)| Some((number, harmonic.on_block(block)?)))
             .collect();
-        Part::new(system, index, block, &own)
+        let part = Part::new(system, (index, first), block, &own);
+        first += part.len();
+        part
     };
     blocks.iter().enumerate().map(part).collect()
 }
 
-/// The motion of one part.
-#[derive(Debug, Clone)]
-pub(super) struct PartMotion {
-    /// eta.
-    pub(super) states: Vec<f64>,
-    /// B eta + load.
-    pub(super) derivative: Vec<f64>,
-    /// The load from outside at the start of the call, and its change per second.
-    load: Vec<f64>,
-    pub(super) load_rate: Vec<f64>,
-    /// Deflections and rates at the points that the part adds: see [`Part::reading`].
-    pub(super) readings: Vec<f64>,
+fn take_apart_block(block: &Block) -> Decoupling {
+    let n = block.len();
+    let scale: Vec<f64> = (0..n)
+        .map(|i| block.stiffness[(i, i)].max(SOFTEST).sqrt())
+        .collect();
+    let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+    for i in 0..n {
+        matrix[(i, n + i)] = scale[i];
+        for j in 0..n {
+            matrix[(n + i, j)] = -block.stiffness[(i, j)] / scale[j];
+            matrix[(n + i, n + j)] = -block.damping[(i, j)];
+        }
+    }
+    let mut decoupled = decouple(&matrix);
+    for (i, scale) in scale.iter().enumerate() {
+        decoupled.shapes.row_mut(i).scale_mut(1.0 / scale);
+        decoupled.inverse.column_mut(i).scale_mut(*scale);
+    }
+    decoupled
 }
 
-impl PartMotion {
-    pub(super) fn at_rest(part: &Part) -> PartMotion {
-        let zeros = || vec![0.0; part.len()];
-        PartMotion {
-            states: zeros(),
-            derivative: zeros(),
-            load: zeros(),
-            load_rate: zeros(),
-            readings: vec![0.0; part.readings()],
-        }
+/// The same with pairs first, then single states, then larger groups.
+fn in_order(decoupled: Decoupling) -> Decoupling {
+    let mut groups = decoupled.groups;
+    groups.sort_by_key(rank);
+    let mut states = Vec::new();
+    for group in &mut groups {
+        let old = group.first;
+        group.first = states.len();
+        states.extend(old..old + group.matrix.nrows());
     }
+    Decoupling {
+        shapes: decoupled.shapes.select_columns(&states),
+        inverse: decoupled.inverse.select_rows(&states),
+        groups,
+    }
+}
 
-    /// Decoupled states from displacements and velocities, and the load from outside in them.
-    pub(super) fn take_over(&mut self, part: &Part, state: &State, ramps: &[Ramp]) {
-        let (range, n) = (part.coordinates.clone(), part.len() / 2);
-        let (per_position, per_velocity) = part.inverse.as_slice().split_at(n * part.len());
-        self.states.fill(0.0);
-        multiply_add(
-            1.0,
-            per_position,
-            &state.position[range.clone()],
-            &mut self.states,
-        );
-        multiply_add(1.0, per_velocity, &state.velocity[range], &mut self.states);
-        self.load.fill(0.0);
-        self.load_rate.fill(0.0);
-        for (number, column) in &part.loads {
-            let Ramp { first, rate } = ramps[*number];
-            add_scaled(first, column, &mut self.load);
-            if rate != 0.0 {
-                add_scaled(rate, column, &mut self.load_rate);
-            }
-        }
-    }
-
-    /// Displacements and velocities from decoupled states.
-    pub(super) fn hand_back(&self, part: &Part, state: &mut State) {
-        let (range, n) = (part.coordinates.clone(), part.len() / 2);
-        let position = &mut state.position[range.clone()];
-        let velocity = &mut state.velocity[range];
-        position.fill(0.0);
-        velocity.fill(0.0);
-        for (shape, value) in part.shapes.column_iter().zip(&self.states) {
-            add_scaled(*value, &shape.as_slice()[..n], position);
-            add_scaled(*value, &shape.as_slice()[n..], velocity);
-        }
-    }
-
-    /// B eta + load, some seconds after the start of the call.
-    pub(super) fn differentiate(&mut self, part: &Part, elapsed: f64) {
-        self.derivative.copy_from_slice(&self.load);
-        add_scaled(elapsed, &self.load_rate, &mut self.derivative);
-        for group in &part.groups {
-            let range = group.first..group.first + group.matrix.nrows();
-            let target = &mut self.derivative[range.clone()];
-            multiply_add(1.0, group.matrix.as_slice(), &self.states[range], target);
-        }
-    }
-
-    /// eta + h phi_1 (B eta + load) + h^2 phi_2 load': the step without forces.
-    pub(super) fn advance(&mut self, part: &Part, coefficients: &PartCoefficients, ramps: bool) {
-        let PartMotion {
-            states,
-            derivative,
-            load_rate,
-            ..
-        } = self;
-        let mut apply = |mut gain: &[f64], source: &[f64]| {
-            for group in &part.groups {
-                let range = group.first..group.first + group.matrix.nrows();
-                let (own, rest) = gain.split_at(group.matrix.len());
-                multiply_add(1.0, own, &source[range.clone()], &mut states[range]);
-                gain = rest;
-            }
-        };
-        apply(&coefficients.gain, derivative);
-        if ramps {
-            apply(&coefficients.ramp_gain, load_rate);
-        }
-    }
+/// The states of groups of one or two, without a single one left over.
+fn paired(groups: &[Group]) -> usize {
+    let sizes = groups.iter().map(|group| group.matrix.nrows());
+    let small: usize = sizes.filter(|&size| size <= 2).sum();
+    small / 2 * 2
 }

@@ -6,14 +6,19 @@ use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
 use super::polynomials::{END, NODES, POINTS};
 
-/// One entry per coupling in every list; deflections and rates in pairs.
+/// How far the deflection of one coupling has moved from the start at all points of a step, then its rate.
+pub(super) type Readings = [f64; 2 * POINTS];
+
+/// One entry per coupling in every list.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
-    /// At the start of the step.
+    /// Deflections and rates at the start of the step.
     pub(super) start: [Vec<f64>; 2],
-    /// At the points, without the forces.
-    pub(super) free: [[Vec<f64>; 2]; POINTS],
-    /// At the points.
+    /// Movements without the forces.
+    pub(super) free: Vec<Readings>,
+    /// Movements.
+    moved: Vec<Readings>,
+    /// Deflections and rates at the points, as laws look at them.
     pub(super) points: [[Vec<f64>; 2]; POINTS],
     /// Between two points, or at the end as it would be with what is missing in the forces.
     pub(super) trial: [Vec<f64>; 2],
@@ -28,9 +33,11 @@ pub(super) struct Sight {
 impl Sight {
     pub(super) fn new(couplings: usize, harmonics: usize) -> Sight {
         let pair = || [vec![0.0; couplings], vec![0.0; couplings]];
+        let readings = vec![[0.0; 2 * POINTS]; couplings];
         Sight {
             start: pair(),
-            free: core::array::from_fn(|_| pair()),
+            free: readings.clone(),
+            moved: readings,
             points: core::array::from_fn(|_| pair()),
             trial: pair(),
             forces: vec![[0.0; NODES]; couplings],
@@ -39,15 +46,33 @@ impl Sight {
         }
     }
 
-    /// Deflections and rates at a point under the present forces.
-    pub(super) fn look(&mut self, exchange: &Exchange, influences: &Influences, point: usize) {
-        copy(&self.free[point], &mut self.points[point]);
-        exchange.exert(influences, point, &self.forces, &mut self.points[point]);
+    /// Nothing has moved yet at any point.
+    pub(super) fn stand_still(&mut self) {
+        self.free.fill([0.0; 2 * POINTS]);
+    }
+
+    /// Deflections and rates at all points under the present forces.
+    pub(super) fn look(&mut self, exchange: &Exchange, influences: &Influences) {
+        self.moved.copy_from_slice(&self.free);
+        exchange.exert(influences, &self.forces, &mut self.moved);
+        for (point, place) in self.points.iter_mut().enumerate() {
+            for (what, (values, start)) in place.iter_mut().zip(&self.start).enumerate() {
+                let values = values.iter_mut().zip(start).zip(&self.moved);
+                for ((value, start), moved) in values {
+                    *value = start + moved[what * POINTS + point];
+                }
+            }
+        }
+    }
+
+    /// How far the deflection of a coupling has moved at a point, without the rounding of large deflections.
+    pub(super) fn moved(&self, coupling: usize, point: usize) -> f64 {
+        self.moved[coupling][point]
     }
 
     /// The step ends: the end becomes the start.
-    pub(super) fn move_on(&mut self, end: usize) {
-        copy(&self.points[end], &mut self.start);
+    pub(super) fn move_on(&mut self) {
+        copy(&self.points[END], &mut self.start);
         for forces in &mut self.forces {
             forces[0] = forces[NODES - 1];
         }
@@ -64,6 +89,18 @@ impl Sight {
         forces.map(|&forces| mean(forces)).sum::<f64>()
             + monitor.motion.clone().map(of_motion).sum::<f64>()
     }
+}
+
+/// readings += rows' values: one row per value.
+pub(super) fn accumulate(readings: &mut Readings, rows: &[Readings], values: &[f64]) {
+    // In a local array the sums stay in registers.
+    let mut sums = *readings;
+    for (row, value) in rows.iter().zip(values) {
+        for (sum, entry) in sums.iter_mut().zip(row) {
+            *sum += value * entry;
+        }
+    }
+    *readings = sums;
 }
 
 /// Copies deflections and rates.

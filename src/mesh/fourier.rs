@@ -72,6 +72,9 @@ impl FourierSeries {
 
     /// The sum over the orders of `term(i, (c_i, s_i), (cos 2 pi i p, sin 2 pi i p))`.
     fn sum(&self, phase: f64, term: impl Fn(f64, (f64, f64), (f64, f64)) -> f64) -> f64 {
+        if self.coefficients.is_empty() {
+            return 0.0;
+        }
         let (sine, cosine) = libm::sincos(TAU * (phase - phase.floor()));
         let mut harmonic = (1.0, 0.0);
         let mut order = 0.0;

@@ -201,7 +201,7 @@ impl StiffnessLaw {
     /// Where in their contact [pitches] the pairs are that a piece engages.
     fn engaged(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
         // The number of pairs is that of the piece: rounding at its ends cannot change it.
-        let pairs = (contact_ratio - self.middle(piece)).floor().max(-1.0) + 1.0;
+        let pairs = (contact_ratio - self.middle(piece) + 1.0).max(0.0);
         (0..pairs as usize).map(move |j| cycle + j as f64)
     }
 

@@ -37,10 +37,11 @@ impl ToothPair {
     pub(super) fn one_pair(&self, x: f64) -> f64 {
         let eps = self.contact_ratio;
         let xi = 2.0 * x / eps - 1.0;
-        let load_share = if self.ramp == 0.0 {
+        let near = x.min(eps - x);
+        let load_share = if near >= self.ramp {
             1.0
         } else {
-            let u = (x.min(eps - x) / self.ramp).clamp(0.0, 1.0);
+            let u = (near / self.ramp).max(0.0);
             u * u * u * (10.0 - u * (15.0 - 6.0 * u))
         };
         self.pair * self.profile(xi * xi) * load_share

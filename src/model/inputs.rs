@@ -86,18 +86,26 @@ impl Inputs {
             .all(|value| value.is_finite())
     }
 
-    /// The values along the columns of [`columns`]. Where bearings follow a free speed, the motion of the gearbox acts
-    /// through [`super::Excitation`] instead.
-    fn exerted(&self, model: &ModalModel) -> impl Iterator<Item = f64> {
-        let bearings = model.bearings().zip(&self.bases);
-        let forces = bearings.flat_map(|(bearing, base)| {
-            if bearing.follows_speed {
-                [0.0; 2]
-            } else {
-                bearing.base_force(base)
+    /// Puts down the values along the columns of [`columns`]. Where bearings follow a free speed, the motion of the gearbox
+    /// acts through [`super::Excitation`] instead.
+    fn exert(&self, model: &ModalModel, mut put: impl FnMut(usize, f64)) {
+        for (number, &torque) in self.torques.iter().enumerate() {
+            put(number, torque);
+        }
+        let mut number = self.torques.len();
+        let mut bases = self.bases.iter();
+        for rotor in &model.rotors {
+            for (bearing, base) in rotor.bearings.iter().zip(&mut bases) {
+                let [x, y] = if bearing.follows_speed {
+                    [0.0; 2]
+                } else {
+                    bearing.base_force(base)
+                };
+                put(number, x);
+                put(number + 1, y);
+                number += 2;
             }
-        });
-        self.torques.iter().copied().chain(forces)
+        }
     }
 
     /// The generalized load of torques and gearbox displacements.
@@ -120,13 +128,11 @@ impl Inputs {
 impl Course<'_> {
     /// Overwrites `loads` with what the inputs exert along [`crate::solver::System::loads`].
     pub fn loads_into(&self, model: &ModalModel, loads: &mut [Ramp]) {
-        for (load, first) in loads.iter_mut().zip(self.first.exerted(model)) {
-            *load = Ramp { first, rate: 0.0 };
-        }
+        self.first.exert(model, |number, first| {
+            loads[number] = Ramp { first, rate: 0.0 };
+        });
         if let Some(rate) = self.rate {
-            for (load, rate) in loads.iter_mut().zip(rate.exerted(model)) {
-                load.rate = rate;
-            }
+            rate.exert(model, |number, rate| loads[number].rate = rate);
         }
     }
 

@@ -31,7 +31,7 @@ impl Integrator {
         velocity: Vec<f64>,
     ) -> State {
         match self {
-            Integrator::Exponential(_) => Exponential::state_at(system, time, position, velocity),
+            Integrator::Exponential(solver) => solver.state_at(system, time, position, velocity),
             Integrator::Newmark(_) => Newmark::state_at(system, time, position, velocity),
         }
     }

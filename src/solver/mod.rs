@@ -30,6 +30,7 @@ pub use row::Row;
 
 use crate::linalg::multiply_add;
 use control::Control;
+use exponential::Turning;
 
 /// The constant part of the equations of motion.
 #[derive(Debug, Clone, Default)]
@@ -217,6 +218,8 @@ pub struct State {
     tracks: Vec<Track>,
     /// The same motion in the decoupled states of the exponential method; none before its first step.
     decoupled: Vec<f64>,
+    /// Where that method has turned the harmonics.
+    turning: Turning,
     /// The slow parameters that the blocks in use belong to.
     slow: Vec<f64>,
     control: Control,
@@ -260,6 +263,7 @@ impl System {
             velocity,
             tracks: vec![track; tracks],
             decoupled: Vec::with_capacity(2 * self.size), // so that steps allocate nothing
+            turning: Turning::default(),
             slow: self.slow.clone(),
             control: Control::new(self.monitors.len()),
         }
@@ -345,6 +349,7 @@ impl State {
         let states = [0, 2 * self.position.len()];
         lengths(self) == lengths(other)
             && states.contains(&self.decoupled.len())
+            && self.turning.is_like(&other.turning)
             && self.time.is_finite()
             && numbers.copied().all(f64::is_finite)
             && self.control.is_valid()
@@ -356,6 +361,7 @@ impl State {
         self.position.clone_from(&other.position);
         self.velocity.clone_from(&other.velocity);
         self.decoupled.clone_from(&other.decoupled);
+        self.turning.copy_from(&other.turning);
         self.slow.clone_from(&other.slow);
         self.control.copy_from(&other.control);
         copy_tracks(&mut self.tracks, &other.tracks);

@@ -16,8 +16,8 @@ use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POINTS, POWERS};
-use super::sight::Readings;
-use crate::linalg::{PhiFunctions, add_scaled, dot};
+use super::sight::{Readings, both};
+use crate::linalg::{PhiFunctions, add_scaled};
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
@@ -172,13 +172,13 @@ impl Coefficients {
                 if point == END {
                     gain.set(part, group, factor, phi);
                 }
-                for (what, rows) in part.sensor_rows.iter().enumerate() {
-                    for (sensor, row) in rows.column_iter().enumerate() {
-                        let row = &row.as_slice()[first..first + m];
-                        let own = begin.free + sensor * states + first;
-                        for (readings, phi) in seen[own..].iter_mut().zip(phi.chunks_exact(m)) {
-                            readings[what * POINTS + point] = factor * dot(row, phi);
-                        }
+                for sensor in 0..part.sensors.len() {
+                    let rows = &part.sensor_rows[sensor * states + first..][..m];
+                    let own = begin.free + sensor * states + first;
+                    for (readings, phi) in seen[own..].iter_mut().zip(phi.chunks_exact(m)) {
+                        let [deflection, rate] = both(rows, phi);
+                        readings[point] = factor * deflection;
+                        readings[POINTS + point] = factor * rate;
                     }
                 }
             }
@@ -233,10 +233,13 @@ impl Coefficients {
                 );
             }
             let own = &mut self.turning[begin.turning + number * sensors..][..sensors];
-            for (what, rows) in part.sensor_rows.iter().enumerate() {
-                for (row, readings) in rows.column_iter().zip(&mut *own) {
-                    let seen: Complex<f64> =
-                        response.iter().zip(row.iter()).map(|(r, w)| r * *w).sum();
+            for (rows, readings) in part.sensor_rows.chunks_exact(states).zip(&mut *own) {
+                let mut seen = [Complex::new(0.0, 0.0); 2];
+                for (response, row) in response.iter().zip(rows) {
+                    seen[0] += response * row[0];
+                    seen[1] += response * row[1];
+                }
+                for (what, seen) in seen.into_iter().enumerate() {
                     readings[0][what * POINTS + point] = seen.re;
                     readings[1][what * POINTS + point] = -seen.im;
                 }
@@ -264,18 +267,19 @@ fn add_influences(
     let (states, sensors) = (part.len(), part.sensors.len());
     // Only the bubbles, at the end, need the higher powers.
     let powers = if point == END { POWERS } else { NODES };
-    for (what, rows) in part.sensor_rows.iter().enumerate() {
-        for actuator in 0..part.actuators.len() {
-            let range = actuator * states..(actuator + 1) * states;
-            for (sensor, row) in rows.column_iter().enumerate() {
-                let entry = (number, actuator * sensors + sensor);
-                let mut seen = [0.0; POWERS];
-                for (seen, moment) in seen.iter_mut().zip(&scratch.moments[..powers]) {
-                    *seen = dot(row.as_slice(), &moment[range.clone()]);
-                }
-                influences.add(exchange, entry, (point, what), &seen);
+    for actuator in 0..part.actuators.len() {
+        let range = actuator * states..(actuator + 1) * states;
+        for sensor in 0..sensors {
+            let rows = &part.sensor_rows[sensor * states..][..states];
+            let entry = (number, actuator * sensors + sensor);
+            let mut seen = [[0.0; POWERS]; 2];
+            for (k, moment) in scratch.moments[..powers].iter().enumerate() {
+                [seen[0][k], seen[1][k]] = both(rows, &moment[range.clone()]);
+            }
+            for (what, seen) in seen.iter().enumerate() {
+                influences.add(exchange, entry, (point, what), seen);
                 if point == END {
-                    influences.add_bubbles(exchange, entry, what, &seen);
+                    influences.add_bubbles(exchange, entry, what, seen);
                 }
             }
         }

@@ -1,7 +1,5 @@
 //! One step of the collocation method.
 
-use nalgebra::Complex;
-
 use super::super::march::{Ending, Method, Outcome, Span, Task, canonical};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::{Coefficients, Scratch};
@@ -11,8 +9,9 @@ use super::motion::Motion;
 use super::nodes::Nodes;
 use super::part::{Part, take_apart};
 use super::polynomials::NODES;
-use super::sight::{Sight, accumulate, instant};
-use crate::linalg::{add_scaled, dot};
+use super::sight::{Sight, accumulate, both, instant};
+use super::turning::Turning;
+use crate::linalg::add_scaled;
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
 const LENGTHS: usize = 64;
@@ -25,8 +24,6 @@ const ORDER: f64 = 6.0;
 const ACCEPTED: f64 = 1.5;
 /// The next step is at most so many times longer; the error it would have is that to the power of the order.
 const GROWTH: f64 = 2.0;
-/// Steps after which the angles of the harmonics are computed anew from the time: turning them adds rounding.
-const MOST_TURNS: u32 = 8;
 
 /// Everything a step needs.
 #[derive(Debug, Clone)]
@@ -44,8 +41,6 @@ pub(super) struct Kernel {
     scratch: Scratch,
     pub(super) sight: Sight,
     pub(super) nodes: Nodes,
-    /// Steps since the angles of the harmonics were computed.
-    turns: u32,
     counts: Counts,
 }
 
@@ -65,9 +60,8 @@ impl Kernel {
             lengths: vec![unused; affordable],
             next_length: 0,
             scratch: Scratch::new(&parts),
-            sight: Sight::new(couplings, harmonics.len()),
+            sight: Sight::new(couplings),
             nodes: Nodes::new(couplings, &exchange),
-            turns: MOST_TURNS,
             counts: Counts::default(),
             exchange,
             parts,
@@ -91,11 +85,10 @@ impl Kernel {
             self.motion.states.copy_from_slice(&state.decoupled);
         }
         self.motion.set_loads(&self.parts, task.forcing.loads());
-        self.turns = MOST_TURNS;
     }
 
     /// Ends the call: writes the state.
-    pub(super) fn hand_back(&self, state: &mut State) -> Result<(), StepError> {
+    pub(super) fn hand_back(&mut self, state: &mut State) -> Result<(), StepError> {
         state.decoupled.clone_from(&self.motion.states);
         self.motion.put_together(&self.parts, state);
         let mut values = state.position.iter().chain(&state.velocity);
@@ -141,25 +134,13 @@ impl Kernel {
         index
     }
 
-    /// The angles of the harmonics at a time, unless they have been turned there.
-    fn find_angles(&mut self, harmonics: &[Harmonic], time: f64) {
-        if self.turns < MOST_TURNS {
-            return;
-        }
-        self.turns = 0;
-        for (angle, harmonic) in self.sight.angles.iter_mut().zip(harmonics) {
-            let (sine, cosine) = libm::sincos(harmonic.angle(time));
-            *angle = Complex::new(cosine, sine);
-        }
-    }
-
     /// What the couplings see at the points without forces, some seconds after the start of the call.
-    fn look_ahead(&mut self, index: usize, elapsed: f64) {
+    fn look_ahead(&mut self, index: usize, elapsed: f64, turning: &Turning) {
         let (motion, sight) = (&mut self.motion, &mut self.sight);
         let coefficients = &self.lengths[index];
         motion.differentiate(elapsed);
         sight.stand_still();
-        let (mut first, mut turning) = (0, coefficients.turning.iter());
+        let (mut first, mut turned) = (0, coefficients.turning.iter());
         for part in &self.parts {
             let (states, own) = (part.len(), part.states());
             for &sensor in &part.sensors {
@@ -179,16 +160,22 @@ impl Kernel {
                 first += states;
             }
             for (harmonic, _) in &part.harmonics {
-                let angle = sight.angles[*harmonic];
-                for (&sensor, turned) in part.sensors.iter().zip(&mut turning) {
-                    accumulate(&mut sight.free[sensor], turned, &[angle.re, angle.im]);
+                let angle = &turning.angles[*harmonic];
+                for (&sensor, turned) in part.sensors.iter().zip(&mut turned) {
+                    accumulate(&mut sight.free[sensor], turned, angle);
                 }
             }
         }
     }
 
     /// Moves to the end of the step.
-    fn accept(&mut self, system: &System, state: &mut State, span: Span, index: usize) {
+    fn accept<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        state: &mut State,
+        span: Span,
+        index: usize,
+    ) {
         let (motion, sight) = (&mut self.motion, &mut self.sight);
         let coefficients = &self.lengths[index];
         motion.advance(&coefficients.gain, &coefficients.ramp_gain);
@@ -207,17 +194,18 @@ impl Kernel {
             }
             for (harmonic, _) in &part.harmonics {
                 let [cosine, sine] = &coefficients.turning_end;
-                let (rows, angle) = (turned..turned + states, sight.angles[*harmonic]);
-                add_scaled(angle.re, &cosine[rows.clone()], own);
-                add_scaled(angle.im, &sine[rows], own);
+                let (rows, angle) = (turned..turned + states, state.turning.angles[*harmonic]);
+                add_scaled(angle[0], &cosine[rows.clone()], own);
+                add_scaled(angle[1], &sine[rows], own);
                 turned += states;
             }
         }
-        for (angle, rotation) in sight.angles.iter_mut().zip(&coefficients.rotations) {
-            *angle *= rotation;
-        }
-        self.turns += 1;
-        for (monitor, squares) in system.monitors.iter().zip(&mut state.control.squares) {
+        let excess = (span.end - span.start) - coefficients.step;
+        let harmonics = task.forcing.harmonics();
+        state
+            .turning
+            .turn(harmonics, &coefficients.rotations, excess);
+        for (monitor, squares) in task.system.monitors.iter().zip(&mut state.control.squares) {
             *squares += span.step * sight.mean_square(monitor);
         }
         sight.move_on();
@@ -247,15 +235,16 @@ fn growth(error: f64) -> f64 {
 
 impl Method for Kernel {
     fn observe<F: Forcing>(&mut self, _: Task<'_, F>, _: &mut State) {
-        for target in &mut self.sight.start {
-            target.fill(0.0);
-        }
+        let [deflection, rate] = &mut self.sight.start;
+        deflection.fill(0.0);
+        rate.fill(0.0);
         for part in &self.parts {
             let own = &self.motion.states[part.states()];
-            for (rows, target) in part.sensor_rows.iter().zip(&mut self.sight.start) {
-                for (row, &sensor) in rows.column_iter().zip(&part.sensors) {
-                    target[sensor] += dot(row.as_slice(), own);
-                }
+            let rows = part.sensor_rows.chunks_exact(own.len().max(1));
+            for (rows, &sensor) in rows.zip(&part.sensors) {
+                let seen = both(rows, own);
+                deflection[sensor] += seen[0];
+                rate[sensor] += seen[1];
             }
         }
     }
@@ -283,8 +272,9 @@ impl Method for Kernel {
         endings: &mut [Ending],
     ) -> Result<Outcome, StepError> {
         let index = self.coefficients_for(canonical(span.step));
-        self.find_angles(task.forcing.harmonics(), span.start);
-        self.look_ahead(index, span.start - task.forcing.since());
+        state.turning.find(task.forcing.harmonics(), span.start);
+        let elapsed = span.start - task.forcing.since();
+        self.look_ahead(index, elapsed, &state.turning);
         let at = (span, state.slow.as_slice());
         let exchange = (&self.exchange, &self.lengths[index].influences);
         let found = self
@@ -318,7 +308,7 @@ impl Method for Kernel {
             self.counts.rejected += 1;
             return Ok(Outcome::Rejected { ratio });
         }
-        self.accept(task.system, state, span, index);
+        self.accept(task, state, span, index);
         // A step that was too long asks for a new plan, one that was not goes on.
         let ratio = if error > 1.0 {
             ratio.min(0.99)

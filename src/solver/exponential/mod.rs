@@ -25,10 +25,13 @@ mod nodes;
 mod part;
 mod polynomials;
 mod sight;
+mod turning;
 
 use super::march::{March, Task};
 use super::{Counts, Forcing, Harmonic, State, StepError, System};
 use kernel::Kernel;
+
+pub(super) use turning::Turning;
 
 /// The integrator with its workspace. It holds nothing that influences a result: everything that does is in the
 /// [`State`].
@@ -42,7 +45,11 @@ pub struct Exponential {
 impl Exponential {
     /// A workspace for this system under harmonics like these.
     pub fn new(system: &System, harmonics: &[Harmonic]) -> Exponential {
-        let before = system.state_at(0.0, vec![0.0; system.size], vec![0.0; system.size], 0);
+        let zeros = || vec![0.0; system.size];
+        let before = State {
+            turning: Turning::unknown(harmonics.len()),
+            ..system.state_at(0.0, zeros(), zeros(), 0)
+        };
         Exponential {
             march: March::new(system),
             kernel: Kernel::new(system, harmonics),
@@ -51,8 +58,17 @@ impl Exponential {
     }
 
     /// The state with these displacements and velocities at `time`, one entry per coordinate.
-    pub fn state_at(system: &System, time: f64, position: Vec<f64>, velocity: Vec<f64>) -> State {
-        system.state_at(time, position, velocity, 0)
+    pub fn state_at(
+        &self,
+        system: &System,
+        time: f64,
+        position: Vec<f64>,
+        velocity: Vec<f64>,
+    ) -> State {
+        State {
+            turning: Turning::unknown(self.before.turning.angles.len()),
+            ..system.state_at(time, position, velocity, 0)
+        }
     }
 
     /// Work done since the workspace was made.

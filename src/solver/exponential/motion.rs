@@ -17,6 +17,8 @@ pub(super) struct Motion {
     pub(super) load_rate: Vec<f64>,
     /// Whether it changes.
     pub(super) ramps: bool,
+    /// Displacements and velocities of one part.
+    together: Vec<f64>,
     /// B.
     dynamics: BlockDiagonal,
 }
@@ -37,6 +39,7 @@ impl Motion {
             load: zeros(),
             load_rate: zeros(),
             ramps: false,
+            together: zeros(),
             dynamics,
         }
     }
@@ -50,8 +53,10 @@ impl Motion {
             let own = part.states();
             for (number, column) in &part.loads {
                 let Ramp { first, rate } = ramps[*number];
-                add_scaled(first, column, &mut self.load[own.clone()]);
-                if self.ramps {
+                if first != 0.0 {
+                    add_scaled(first, column, &mut self.load[own.clone()]);
+                }
+                if rate != 0.0 {
                     add_scaled(rate, column, &mut self.load_rate[own.clone()]);
                 }
             }
@@ -71,20 +76,16 @@ impl Motion {
     }
 
     /// Displacements and velocities from decoupled states.
-    pub(super) fn put_together(&self, parts: &[Part], state: &mut State) {
+    pub(super) fn put_together(&mut self, parts: &[Part], state: &mut State) {
         for part in parts {
-            let (range, n) = (part.coordinates.clone(), part.len() / 2);
-            let position = &mut state.position[range.clone()];
-            let velocity = &mut state.velocity[range];
-            position.fill(0.0);
-            velocity.fill(0.0);
+            let range = part.coordinates.clone();
+            let together = &mut self.together[..part.len()];
+            together.fill(0.0);
             let own = &self.states[part.states()];
-            let columns = part.shapes.as_slice().chunks_exact((2 * n).max(1));
-            for (shape, value) in columns.zip(own) {
-                let (displaced, moving) = shape.split_at(n);
-                add_scaled(*value, displaced, position);
-                add_scaled(*value, moving, velocity);
-            }
+            multiply_add(1.0, part.shapes.as_slice(), own, together);
+            let (position, velocity) = together.split_at(range.len());
+            state.position[range.clone()].copy_from_slice(position);
+            state.velocity[range].copy_from_slice(velocity);
         }
     }
 

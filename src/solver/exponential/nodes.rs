@@ -18,7 +18,7 @@ use crate::linalg::dot;
 /// Sweeps after which a step counts as too long.
 const MOST_SWEEPS: usize = 25;
 /// Change of the forces in the last sweep relative to the tolerance, and the smallest one above rounding.
-const ACCURACY: (f64, f64) = (1e-4, 1e-13);
+const ACCURACY: (f64, f64) = (1e-3, 1e-13);
 /// The most that the forces of a coupling may do to themselves within a step: beyond, they answer to rounding.
 const MOST_FEEDBACK: f64 = 4.0;
 /// The nodes behind the first, whose force is known.
@@ -124,10 +124,9 @@ impl Nodes {
 
     /// Block by block until nothing changes.
     fn sweep_blocks(&self, exchange: &Exchange, accuracy: f64, sight: &mut Sight) -> bool {
-        let mut before = 0.0;
+        let (mut before, least) = (0.0, least_force(sight));
         for _ in 0..MOST_SWEEPS {
             let mut changed: f64 = 0.0;
-            let least = least_force(sight);
             let mut pairs = exchange.pairs.iter().zip(&self.mutual).peekable();
             let equations = self.right.iter().zip(&self.inverse);
             let (mut alone, mut sound) = (true, true);
@@ -137,13 +136,13 @@ impl Nodes {
                 {
                     if pair.actuator != coupling {
                         alone = false;
-                        let forces = &sight.forces[pair.actuator][1..];
+                        let [_, f1, f2, f3] = sight.forces[pair.actuator];
                         for (right, row) in right.iter_mut().zip(mutual) {
-                            *right -= dot(row, forces);
+                            *right -= product(row, &[f1, f2, f3]);
                         }
                     }
                 }
-                let present = inverse.map(|row| dot(&row, &right));
+                let present = inverse.map(|row| product(&row, &right));
                 let forces = &mut sight.forces[coupling][1..];
                 for (force, present) in forces.iter_mut().zip(present) {
                     let size = present.abs().max(force.abs()).max(least);
@@ -266,6 +265,11 @@ fn forces_on(lines: &[Line], [deflection, rate]: &[Vec<f64>; 2], forces: &mut [f
     }
 }
 
+/// x' y.
+fn product(x: &[f64; UNKNOWN], y: &[f64; UNKNOWN]) -> f64 {
+    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+}
+
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// By cofactors.
@@ -278,7 +282,7 @@ fn inverse([a, b, c]: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         ]
     };
     let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let scale = 1.0 / dot(a, &columns[0]);
+    let scale = 1.0 / product(a, &columns[0]);
     core::array::from_fn(|i| core::array::from_fn(|j| scale * columns[j][i]))
 }
 

@@ -34,8 +34,8 @@ pub(super) struct Part {
     pub(super) paired: usize,
     /// The couplings whose rows look at the block.
     pub(super) sensors: Vec<usize>,
-    /// Their deflections and rates per eta: one column each, 2n x sensors.
-    pub(super) sensor_rows: [DMatrix<f64>; 2],
+    /// Their deflections and rates per eta: for every sensor 2n of both.
+    pub(super) sensor_rows: Vec<[f64; 2]>,
     /// The couplings whose forces act on the block.
     pub(super) actuators: Vec<usize>,
     /// V^-1 [0; b] of these, 2n x actuators.
@@ -71,6 +71,8 @@ impl Part {
             (numbers, columns)
         };
         let (sensors, rows) = touching(&|coupling| system.couplings[coupling].row.in_block(index));
+        let deflections = shapes.rows(0, n).transpose() * &rows;
+        let rates = shapes.rows(n, n).transpose() * &rows;
         let (actuators, columns) =
             touching(&|coupling| system.couplings[coupling].column.in_block(index));
         let loads = system.loads.iter().map(|column| column.in_block(index));
@@ -86,10 +88,11 @@ impl Part {
         Part {
             coordinates: block.range(),
             first,
-            sensor_rows: [
-                shapes.rows(0, n).transpose() * &rows,
-                shapes.rows(n, n).transpose() * &rows,
-            ],
+            sensor_rows: deflections
+                .iter()
+                .zip(&rates)
+                .map(|(d, v)| [*d, *v])
+                .collect(),
             actuator_columns: &input * columns,
             loads: loads.collect(),
             harmonics: harmonics.collect(),

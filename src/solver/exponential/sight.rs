@@ -1,7 +1,5 @@
 //! What the couplings see and exert in one step.
 
-use nalgebra::Complex;
-
 use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
 use super::polynomials::{END, NODES, POINTS};
@@ -26,12 +24,10 @@ pub(super) struct Sight {
     pub(super) forces: Vec<[f64; NODES]>,
     /// Forces at one instant.
     pub(super) present: Vec<f64>,
-    /// e^(i angle) of every harmonic at the start of the step.
-    pub(super) angles: Vec<Complex<f64>>,
 }
 
 impl Sight {
-    pub(super) fn new(couplings: usize, harmonics: usize) -> Sight {
+    pub(super) fn new(couplings: usize) -> Sight {
         let pair = || [vec![0.0; couplings], vec![0.0; couplings]];
         let readings = vec![[0.0; 2 * POINTS]; couplings];
         Sight {
@@ -42,7 +38,6 @@ impl Sight {
             trial: pair(),
             forces: vec![[0.0; NODES]; couplings],
             present: vec![0.0; couplings],
-            angles: vec![Complex::new(0.0, 0.0); harmonics],
         }
     }
 
@@ -101,6 +96,16 @@ pub(super) fn accumulate(readings: &mut Readings, rows: &[Readings], values: &[f
         }
     }
     *readings = sums;
+}
+
+/// Deflection and rate of a sensor in these states.
+pub(super) fn both(rows: &[[f64; 2]], states: &[f64]) -> [f64; 2] {
+    let mut seen = [0.0; 2];
+    for (row, state) in rows.iter().zip(states) {
+        seen[0] += row[0] * state;
+        seen[1] += row[1] * state;
+    }
+    seen
 }
 
 /// Copies deflections and rates.

@@ -33,9 +33,14 @@ const INVERSE_FACTORIAL: [f64; PHI_ORDERS] = [
     1.0 / 720.0,
 ];
 
-/// Size of an argument up to which the series is used, and its terms: 1^24 / 30! is below rounding.
+/// Size of an argument up to which the series is used.
 const SERIES_RADIUS: f64 = 1.0;
-const SERIES_TERMS: usize = 24;
+/// Terms of the series of phi_6 behind the first, for arguments up to a size: what is left out is below 1e-17 of it,
+/// size^n 6! / (n + 6)!.
+const SERIES_TERMS: [(f64, usize); 4] = [(1e-3, 4), (3e-2, 6), (0.3, 9), (1.0, 14)];
+/// Below this |(lambda - i w) T| the response to an oscillator is taken from the series: the difference of two exponentials
+/// would lose digits.
+const RESONANT: f64 = 1e-2;
 /// Arguments beyond 2^60 have lost all digits of their phase.
 const MOST_HALVINGS: u32 = 60;
 
@@ -49,6 +54,8 @@ pub struct PhiFunctions {
     argument: Vec<f64>,
     product: Vec<f64>,
     doubled: Vec<f64>,
+    /// The eigenvalue of the latest matrix and its e^(lambda T), where it is a pair of complex ones.
+    pair: Option<(Complex<f64>, Complex<f64>)>,
     /// The oscillator beside the largest matrix; `None` in the functions that serve it.
     augmented: Option<Box<PhiFunctions>>,
 }
@@ -70,6 +77,7 @@ impl PhiFunctions {
             argument: square.clone(),
             product: square.clone(),
             doubled: vec![0.0; PHI_ORDERS * square.len()],
+            pair: None,
             augmented: None,
         }
     }
@@ -88,8 +96,10 @@ impl PhiFunctions {
         for (target, value) in self.argument.iter_mut().zip(matrix.iter()) {
             *target = value * time;
         }
-        let pair = complex_pair(matrix).map(|value| value * time);
+        let own = complex_pair(matrix);
+        let pair = own.map(|value| value * time);
         let well_apart = |value: &Complex<f64>| value.im > 1e-3 * (1.0 + value.re.abs());
+        self.pair = None;
         if m == 1 {
             let phi = complex_phi_functions(Complex::new(self.argument[0], 0.0));
             for (target, value) in self.values.iter_mut().zip(phi) {
@@ -98,6 +108,7 @@ impl PhiFunctions {
         } else if let Some(value) = pair.filter(well_apart) {
             // With a small w the formula would divide rounding by w.
             let functions = complex_phi_functions(value);
+            self.pair = own.map(|eigenvalue| (eigenvalue, functions[0]));
             for (phi, target) in functions.iter().zip(self.values.chunks_exact_mut(square)) {
                 let slope = phi.im / value.im;
                 for (index, (entry, argument)) in target.iter_mut().zip(&self.argument).enumerate()
@@ -129,13 +140,13 @@ impl PhiFunctions {
                 .iter_mut()
                 .for_each(|value| *value *= 0.5);
         }
-        self.sum_series(m);
+        self.sum_series(m, size);
         for _ in 0..halvings {
             self.double(m);
         }
     }
 
-    fn sum_series(&mut self, m: usize) {
+    fn sum_series(&mut self, m: usize, size: f64) {
         let (square, top) = (m * m, PHI_ORDERS - 1);
         let argument = &self.argument[..square];
         let (lower, highest) = self.values.split_at_mut(top * square);
@@ -143,10 +154,10 @@ impl PhiFunctions {
         let term = &mut self.doubled[..square];
         set_diagonal(term, m, INVERSE_FACTORIAL[top]);
         highest.copy_from_slice(term);
-        for n in 1..SERIES_TERMS {
+        for n in 1..=terms(size) {
             let product = &mut self.product[..square];
             multiply(m, argument, term, product);
-            let factor = 1.0 / (n + top) as f64;
+            let factor = RECIPROCAL[n + top];
             for ((term, sum), value) in term.iter_mut().zip(&mut *highest).zip(product) {
                 *term = *value * factor;
                 *sum += *term;
@@ -183,35 +194,37 @@ impl PhiFunctions {
         self.values[..used].copy_from_slice(&self.doubled[..used]);
     }
 
-    /// The response of x' = B x + Re(load e^(i w t)) from rest over a time T: x(T) = Re(result).
+    /// The response of x' = B x + Re(load e^(i w t)) from rest over a time T: x(T) = Re(result). B T is the latest argument,
+    /// `turned` is e^(i w T).
     ///
     /// ```text
-    ///   result = integral from 0 to T of e^(B (T-s)) e^(i w s) ds load
-    ///          = f(B) load,  f(z) = T e^(i w T) phi_1((z - i w) T)       exact at resonance too
+    ///   result = integral from 0 to T of e^(B (T-s)) e^(i w s) ds load = f(B) load
+    ///   f(z) = (e^(z T) - e^(i w T)) / (z - i w) = T e^(i w T) phi_1((z - i w) T)            exact at resonance too
     /// ```
     pub fn oscillator_response(
         &mut self,
-        matrix: &DMatrix<f64>,
-        time: f64,
-        frequency: f64,
+        (matrix, time): (&DMatrix<f64>, f64),
+        (frequency, turned): (f64, Complex<f64>),
         load: &[Complex<f64>],
         result: &mut [Complex<f64>],
     ) {
-        let m = matrix.nrows();
-        let apart = |value: &Complex<f64>| value.im * time > 1e-3 * (1.0 + value.re.abs() * time);
-        if let Some(value) = complex_pair(matrix).filter(apart) {
-            let response = |value: Complex<f64>| {
-                let argument = (value - Complex::new(0.0, frequency)) * time;
-                complex_phi_functions(argument)[1] * time * rotation(frequency * time)
+        if let (Some((value, grown)), [one, two]) = (self.pair, load) {
+            let response = |value: Complex<f64>, grown: Complex<f64>| {
+                let apart = value - Complex::new(0.0, frequency);
+                if apart.l1_norm() * time < RESONANT {
+                    turned * time * complex_phi_functions(apart * time)[1]
+                } else {
+                    (grown - turned) / apart
+                }
             };
-            // Lagrange's form of f(B) on the two eigenvalues.
-            let (upper, lower) = (response(value), response(value.conj()));
-            let slope = (upper - lower) / (value - value.conj());
+            // Lagrange's form of f(B) on the two eigenvalues a +- i w.
+            let (upper, lower) = (response(value, grown), response(value.conj(), grown.conj()));
+            let difference = (upper - lower) * (0.5 / value.im);
+            let slope = Complex::new(difference.im, -difference.re);
             let level = upper - slope * value;
-            for (i, target) in result.iter_mut().enumerate() {
-                let product: Complex<f64> = (0..m).map(|j| load[j] * matrix[(i, j)]).sum();
-                *target = level * load[i] + slope * product;
-            }
+            let product = |i: usize| one * matrix[(i, 0)] + two * matrix[(i, 1)];
+            result[0] = level * one + slope * product(0);
+            result[1] = level * two + slope * product(1);
         } else if let Some(augmented) = &mut self.augmented {
             augmented.respond(matrix, time, frequency, load, result);
         }
@@ -286,12 +299,13 @@ fn complex_pair(matrix: &DMatrix<f64>) -> Option<Complex<f64>> {
 
 fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDERS] {
     let mut phi = [Complex::new(0.0, 0.0); PHI_ORDERS];
-    if z.re.abs() + z.im.abs() <= SERIES_RADIUS {
+    let size = z.re.abs() + z.im.abs();
+    if size <= SERIES_RADIUS {
         let top = PHI_ORDERS - 1;
         let mut term = Complex::new(INVERSE_FACTORIAL[top], 0.0);
         phi[top] = term;
-        for n in 1..SERIES_TERMS {
-            term = term * z / (n + top) as f64;
+        for n in 1..=terms(size) {
+            term = term * z * RECIPROCAL[n + top];
             phi[top] += term;
         }
         for k in (0..top).rev() {
@@ -299,11 +313,29 @@ fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDERS] {
         }
     } else {
         phi[0] = rotation(z.im) * libm::exp(z.re);
+        let inverse = z.conj() / z.norm_sqr();
         for k in 1..PHI_ORDERS {
-            phi[k] = (phi[k - 1] - INVERSE_FACTORIAL[k - 1]) / z;
+            phi[k] = (phi[k - 1] - INVERSE_FACTORIAL[k - 1]) * inverse;
         }
     }
     phi
+}
+
+/// 1/n.
+const RECIPROCAL: [f64; 21] = {
+    let mut values = [0.0; 21];
+    let mut n = 1;
+    while n < values.len() {
+        values[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    values
+};
+
+/// Terms of the series behind the first for an argument of a size up to [`SERIES_RADIUS`].
+fn terms(size: f64) -> usize {
+    let enough = SERIES_TERMS.iter().find(|(radius, _)| size <= *radius);
+    enough.map_or(SERIES_TERMS[SERIES_TERMS.len() - 1].1, |(_, terms)| *terms)
 }
 
 #[cfg(test)]
@@ -391,13 +423,16 @@ mod tests {
             let matrix = DMatrix::from_row_slice(2, 2, &[a, -w, w, a]);
             let mut response = PhiFunctions::new(3);
             let mut formula = [Complex::new(0.0, 0.0); 2];
-            response.oscillator_response(&matrix, time, frequency, &load, &mut formula);
+            let driven = (frequency, rotation(frequency * time));
+            response.evaluate(&matrix, time);
+            response.oscillator_response((&matrix, time), driven, &load, &mut formula);
             // The same pair beside an unrelated state takes the general way.
             let mut larger = DMatrix::zeros(3, 3);
             larger.view_mut((0, 0), (2, 2)).copy_from(&matrix);
             let padded = [load[0], load[1], Complex::new(0.0, 0.0)];
             let mut general = [Complex::new(0.0, 0.0); 3];
-            response.oscillator_response(&larger, time, frequency, &padded, &mut general);
+            response.evaluate(&larger, time);
+            response.oscillator_response((&larger, time), driven, &padded, &mut general);
             for (one, two) in formula.iter().zip(&general) {
                 assert!(
                     (one - two).l1_norm() < 1e-12,

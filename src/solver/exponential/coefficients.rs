@@ -49,7 +49,10 @@ pub(super) struct Scratch {
     phi: PhiFunctions,
     /// m_k of every actuator, 2n each.
     moments: [Vec<f64>; POWERS],
-    response: Vec<Complex<f64>>,
+    /// The response to every harmonic of a part, 2n each.
+    responses: Vec<Complex<f64>>,
+    /// e^(i w x h) of all harmonics.
+    turned: Vec<Complex<f64>>,
 }
 
 /// Where the lists of a part begin.
@@ -65,17 +68,19 @@ struct Begin {
 type Place = (usize, f64);
 
 impl Scratch {
-    pub(super) fn new(parts: &[Part]) -> Scratch {
+    pub(super) fn new(parts: &[Part], harmonics: usize) -> Scratch {
         let largest = |size: &dyn Fn(&Part) -> usize| parts.iter().map(size).max().unwrap_or(0);
         let group = largest(&|part| {
             let sizes = part.groups.iter().map(|group| group.matrix.nrows());
             sizes.max().unwrap_or(0)
         });
+        let still = Complex::new(0.0, 0.0);
         let moment = vec![0.0; largest(&|part| part.len() * part.actuators.len())];
         Scratch {
             phi: PhiFunctions::new(group),
             moments: core::array::from_fn(|_| moment.clone()),
-            response: vec![Complex::new(0.0, 0.0); largest(&Part::len)],
+            responses: vec![still; largest(&|part| part.len() * part.harmonics.len())],
+            turned: vec![still; harmonics],
         }
     }
 }
@@ -131,33 +136,37 @@ impl Coefficients {
     ) {
         self.step = h;
         self.influences.clear();
-        for (rotation, frequency) in self.rotations.iter_mut().zip(frequencies) {
-            let (sine, cosine) = libm::sincos(frequency * h);
-            *rotation = Complex::new(cosine, sine);
-        }
-        let mut begin = Begin::default();
-        for (number, part) in parts.iter().enumerate() {
-            for place in PLACES.into_iter().enumerate() {
-                self.compute_linear(part, begin, h, place, scratch);
-                if place.0 == END {
+        for (point, place) in PLACES.into_iter().enumerate() {
+            let time = place * h;
+            for (turned, frequency) in scratch.turned.iter_mut().zip(frequencies) {
+                let (sine, cosine) = libm::sincos(frequency * time);
+                *turned = Complex::new(cosine, sine);
+            }
+            if point == END {
+                self.rotations.copy_from_slice(&scratch.turned);
+            }
+            let mut begin = Begin::default();
+            for (number, part) in parts.iter().enumerate() {
+                self.compute_linear(part, begin, h, (point, place), (frequencies, scratch));
+                if point == END {
                     self.combine_columns(part, begin, scratch);
                 }
                 let influences = &mut self.influences;
-                add_influences(part, number, place.0, (exchange, influences), scratch);
-                self.compute_turning(part, begin, h, place, (frequencies, scratch));
+                add_influences(part, number, point, (exchange, influences), scratch);
+                self.compute_turning(part, begin, point, scratch);
+                begin = begin.after(part);
             }
-            begin = begin.after(part);
         }
     }
 
-    /// The response without forces and the moments at a point.
+    /// At a point: the response without forces, the moments, and the responses to the harmonics.
     fn compute_linear(
         &mut self,
         part: &Part,
         begin: Begin,
         h: f64,
         (point, x): Place,
-        scratch: &mut Scratch,
+        (frequencies, scratch): (&[f64], &mut Scratch),
     ) {
         let states = part.len();
         for group in &part.groups {
@@ -195,6 +204,15 @@ impl Coefficients {
                     }
                 }
             }
+            for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
+                let driven = (frequencies[*harmonic], scratch.turned[*harmonic]);
+                let response = &mut scratch.responses[number * states + first..][..m];
+                let load = &load[first..first + m];
+                let block = (&group.matrix, x * h);
+                scratch
+                    .phi
+                    .oscillator_response(block, driven, load, response);
+            }
         }
     }
 
@@ -211,27 +229,10 @@ impl Coefficients {
     }
 
     /// The response to the harmonics at a point: Re of it times e^(i angle) at the start of the step.
-    fn compute_turning(
-        &mut self,
-        part: &Part,
-        begin: Begin,
-        h: f64,
-        (point, x): Place,
-        (frequencies, scratch): (&[f64], &mut Scratch),
-    ) {
+    fn compute_turning(&mut self, part: &Part, begin: Begin, point: usize, scratch: &Scratch) {
         let (states, sensors) = (part.len(), part.sensors.len());
-        for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
-            let response = &mut scratch.response[..states];
-            for group in &part.groups {
-                let range = group.first..group.first + group.matrix.nrows();
-                scratch.phi.oscillator_response(
-                    &group.matrix,
-                    x * h,
-                    frequencies[*harmonic],
-                    &load[range.clone()],
-                    &mut response[range],
-                );
-            }
+        let responses = scratch.responses.chunks_exact(states.max(1));
+        for (number, response) in responses.take(part.harmonics.len()).enumerate() {
             let own = &mut self.turning[begin.turning + number * sensors..][..sensors];
             for (rows, readings) in part.sensor_rows.chunks_exact(states).zip(&mut *own) {
                 let mut seen = [Complex::new(0.0, 0.0); 2];

@@ -59,7 +59,7 @@ impl Kernel {
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
             next_length: 0,
-            scratch: Scratch::new(&parts),
+            scratch: Scratch::new(&parts, harmonics.len()),
             sight: Sight::new(couplings),
             nodes: Nodes::new(couplings, &exchange),
             counts: Counts::default(),
@@ -113,8 +113,8 @@ impl Kernel {
             task.forcing.blocks_into(&self.used_slow, &mut self.blocks);
             self.parts = take_apart(task.system, &self.blocks, task.forcing.harmonics());
             self.motion = Motion::new(&self.parts);
-            self.scratch = Scratch::new(&self.parts);
             let harmonics = self.frequencies.len();
+            self.scratch = Scratch::new(&self.parts, harmonics);
             let unused = Coefficients::unused(&self.parts, &self.exchange, harmonics);
             self.lengths.fill(unused);
             self.counts.refreshes += 1;

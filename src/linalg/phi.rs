@@ -98,7 +98,11 @@ impl PhiFunctions {
         }
         let own = complex_pair(matrix);
         let pair = own.map(|value| value * time);
-        let well_apart = |value: &Complex<f64>| value.im > 1e-3 * (1.0 + value.re.abs());
+        // With a small w the formula would divide rounding by w; the series has rounding of its argument's size only.
+        let well_apart = |value: &Complex<f64>| {
+            let series = value.l1_norm() <= SERIES_RADIUS;
+            value.im > 1e-3 * (value.re.abs() + if series { 0.0 } else { 1.0 })
+        };
         self.pair = None;
         if m == 1 {
             let phi = complex_phi_functions(Complex::new(self.argument[0], 0.0));
@@ -106,7 +110,6 @@ impl PhiFunctions {
                 *target = value.re;
             }
         } else if let Some(value) = pair.filter(well_apart) {
-            // With a small w the formula would divide rounding by w.
             let functions = complex_phi_functions(value);
             self.pair = own.map(|eigenvalue| (eigenvalue, functions[0]));
             for (phi, target) in functions.iter().zip(self.values.chunks_exact_mut(square)) {

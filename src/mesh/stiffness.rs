@@ -145,6 +145,21 @@ impl StiffnessLaw {
         matches!(self.shape, Shape::Constant { .. } | Shape::Fourier { .. })
     }
 
+    /// How far beyond its ends [pitches] a piece may be continued: infinity for a smooth law, 0 where pieces meet in a
+    /// kink or a jump.
+    ///
+    /// Ramps of tooth pairs join with two continuous derivatives. Continued by d, k is off by 10 (d/ramp)^3 of a pair, and its
+    /// mean over a pitch by 10/4 (d/ramp)^3 d, which is to be 1 % of the tolerance.
+    pub fn slack(&self, tolerance: f64) -> f64 {
+        match self.shape {
+            _ if self.is_smooth() => f64::INFINITY,
+            Shape::ToothPair(law) if law.ramp > 0.0 && 2.0 * law.ramp <= law.contact_ratio => {
+                law.ramp * (4e-3 * tolerance / law.ramp).sqrt().sqrt()
+            }
+            _ => 0.0,
+        }
+    }
+
     /// The piece that a phase in [0, 1) lies in; at a breakpoint the one that begins there.
     pub fn piece(&self, cycle: f64) -> usize {
         self.starts

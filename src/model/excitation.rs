@@ -106,6 +106,12 @@ impl Forcing for Excitation<'_> {
             .fold(f64::INFINITY, f64::min)
     }
 
+    fn slack(&self, tolerance: f64) -> f64 {
+        let meshes = self.model.meshes.iter();
+        let slack = meshes.map(|mesh| mesh.slack(tolerance)).reduce(f64::min);
+        slack.filter(|slack| slack.is_finite()).unwrap_or(0.0)
+    }
+
     fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]) {
         for mesh in &self.model.meshes {
             mesh.enter(start, inside, pieces);

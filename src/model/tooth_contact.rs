@@ -259,6 +259,11 @@ impl Mesh {
         ]
     }
 
+    /// How far from the end of a piece of the stiffness a step may end at prescribed speed [s].
+    pub(super) fn slack(&self, tolerance: f64) -> f64 {
+        self.law.slack(tolerance) / self.phase_rate.abs()
+    }
+
     /// The first time after `time` at which the stiffness ends a piece at prescribed speed.
     pub(super) fn next_breakpoint(&self, time: f64) -> f64 {
         if self.turning.is_some() || self.law.is_smooth() || self.phase_rate == 0.0 {

@@ -25,6 +25,12 @@ const MOST_INTERRUPTIONS: u32 = 20;
 /// A stretch begins with a guess of this part of it.
 const FIRST_STEP: f64 = 1.0 / 16.0;
 
+/// Breakpoints that need not be met exactly are met on this many parts of the call: so few lengths of steps occur, whatever
+/// the period of the laws.
+const GRID: f64 = 64.0;
+/// Lengths that differ from the grid by this part of it come from rounding.
+const OFF_GRID: f64 = 1e-4;
+
 /// What stays the same during one call.
 #[derive(Debug)]
 pub(super) struct Task<'a, F> {
@@ -57,6 +63,31 @@ impl Span {
             self.end
         } else {
             self.start + part * self.step
+        }
+    }
+}
+
+/// Equal parts of a call.
+#[derive(Debug, Clone, Copy)]
+struct Grid {
+    start: f64,
+    width: f64,
+}
+
+impl Grid {
+    /// The point of the grid next to a time.
+    fn near(&self, time: f64) -> f64 {
+        self.start + ((time - self.start) / self.width).round() * self.width
+    }
+
+    /// A length without the rounding of the times it was computed from, where it is one of the grid.
+    fn length(&self, length: f64) -> f64 {
+        let parts = (length / self.width).round();
+        let exact = parts * self.width;
+        if parts >= 1.0 && (length - exact).abs() <= OFF_GRID * self.width {
+            exact
+        } else {
+            length
         }
     }
 }
@@ -161,16 +192,27 @@ impl March {
         (self.tried, self.since) = (0, state.time);
         // Less than rounding lets times differ is no stretch of time.
         let rounding = 4.0 * f64::EPSILON * until.abs();
+        let slack = task.forcing.slack(task.tolerance).max(rounding);
+        let grid = Grid {
+            start: state.time,
+            width: canonical(until - state.time) / GRID,
+        };
         while state.time < until - rounding {
             self.begun.fill(f64::NEG_INFINITY);
-            let next = task.forcing.next_breakpoint(state.time + rounding);
-            let stop = if next < until - rounding { next } else { until };
+            let next = task.forcing.next_breakpoint(state.time + slack);
+            let stop = if next < until - slack {
+                let near = grid.near(next);
+                let met = (near - next).abs() <= slack && near > state.time + rounding;
+                if met && near < until { near } else { next }
+            } else {
+                until
+            };
             let inside = 0.5 * (state.time + stop);
             method.observe(task, state);
             let start = method.instant(state);
             task.forcing.enter(start, inside, &mut self.pieces);
             method.begin(task, state, &self.pieces);
-            self.cross_smooth_stretch(method, task, state, stop)?;
+            self.cross_smooth_stretch(method, task, state, (stop, grid))?;
         }
         state.time = until;
         Ok(())
@@ -182,13 +224,13 @@ impl March {
         method: &mut impl Method,
         task: Task<'_, F>,
         state: &mut State,
-        stop: f64,
+        (stop, grid): (f64, Grid),
     ) -> Result<(), StepError> {
         if state.control.wanted_step == 0.0 {
             state.control.wanted_step = (stop - state.time) * FIRST_STEP;
         }
         while state.time < stop {
-            let (start, length) = (state.time, stop - state.time);
+            let (start, length) = (state.time, grid.length(stop - state.time));
             let count = equal_steps(length / state.control.wanted_step);
             let step = length / count as f64;
             if start + 0.5 * step == start {

@@ -117,6 +117,9 @@ pub trait Forcing {
     /// The first time clearly after `time` at which the piece of some law ends whatever the motion; infinity
     /// when there is none.
     fn next_breakpoint(&self, time: f64) -> f64;
+    /// How far from a breakpoint a step may end without harm to a solution of this tolerance [s]: pieces that join smoothly may be
+    /// continued a little; 0 where one jumps or has a kink.
+    fn slack(&self, tolerance: f64) -> f64;
     /// The piece of every law in a stretch that begins with `start` and contains the time `inside`.
     fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]);
     /// F of every coupling, each law continued smoothly from its piece.

@@ -17,13 +17,11 @@ use super::exchange::{Exchange, Influences};
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POINTS, POWERS};
 use super::sight::{Readings, both};
-use crate::linalg::{PhiFunctions, add_scaled};
+use crate::linalg::{PhiFunctions, add_scaled, multiply_add};
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
 pub(super) struct Coefficients {
-    /// h [s]; 0 while unused.
-    pub(super) step: f64,
     /// h phi_1.
     pub(super) gain: BlockDiagonal,
     /// h^2 phi_2.
@@ -104,7 +102,6 @@ impl Coefficients {
         let end = parts.iter().fold(Begin::default(), Begin::after);
         let readings = [0.0; 2 * POINTS];
         Coefficients {
-            step: 0.0,
             gain: BlockDiagonal::zero(parts),
             ramp_gain: BlockDiagonal::zero(parts),
             free: vec![readings; end.free],
@@ -134,7 +131,6 @@ impl Coefficients {
         frequencies: &[f64],
         scratch: &mut Scratch,
     ) {
-        self.step = h;
         self.influences.clear();
         for (point, place) in PLACES.into_iter().enumerate() {
             let time = place * h;
@@ -183,9 +179,13 @@ impl Coefficients {
                 }
                 for sensor in 0..part.sensors.len() {
                     let rows = &part.sensor_rows[sensor * states + first..][..m];
-                    let own = begin.free + sensor * states + first;
-                    for (readings, phi) in seen[own..].iter_mut().zip(phi.chunks_exact(m)) {
-                        let [deflection, rate] = both(rows, phi);
+                    let own = &mut seen[begin.free + sensor * states + first..][..m];
+                    for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
+                        let [deflection, rate] = match (rows, phi) {
+                            // Nearly all blocks are pairs: no loop.
+                            ([one, two], [x, y]) => [0, 1].map(|i| one[i] * x + two[i] * y),
+                            _ => both(rows, phi),
+                        };
                         readings[point] = factor * deflection;
                         readings[POINTS + point] = factor * rate;
                     }
@@ -197,11 +197,8 @@ impl Coefficients {
                 let (phi, factor) = (scratch.phi.get(k + 1), FACTORIAL[k] * power);
                 for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
                     let start = actuator * states + first;
-                    let target = &mut moments[start..start + m];
-                    target.fill(0.0);
-                    for (phi, value) in phi.chunks_exact(m).zip(&column.as_slice()[first..]) {
-                        add_scaled(factor * value, phi, target);
-                    }
+                    let own = &column.as_slice()[first..first + m];
+                    product_into(factor, phi, own, &mut moments[start..start + m]);
                 }
             }
             for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
@@ -254,6 +251,18 @@ impl Coefficients {
                 }
             }
         }
+    }
+}
+
+/// target = scale A x for a small matrix, column by column.
+fn product_into(scale: f64, matrix: &[f64], x: &[f64], target: &mut [f64]) {
+    if let ([a, b, c, d], [x, y], [one, two]) = (matrix, x, &mut *target) {
+        // Nearly all are pairs: no loop.
+        *one = scale * (a * x + c * y);
+        *two = scale * (b * x + d * y);
+    } else {
+        target.fill(0.0);
+        multiply_add(scale, matrix, x, target);
     }
 }
 

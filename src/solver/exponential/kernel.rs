@@ -14,7 +14,7 @@ use super::turning::Turning;
 use crate::linalg::add_scaled;
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
-const LENGTHS: usize = 64;
+const LENGTHS: usize = 160;
 const MEMORY: usize = 16 << 20;
 /// What part of a step is tried whose forces are not found.
 const SHORTER: f64 = 0.4;
@@ -36,7 +36,9 @@ pub(super) struct Kernel {
     motion: Motion,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
-    pub(super) lengths: Vec<Coefficients>,
+    lengths: Vec<Coefficients>,
+    /// The lengths themselves [s]; 0 while unused.
+    steps: Vec<f64>,
     next_length: usize,
     scratch: Scratch,
     pub(super) sight: Sight,
@@ -58,6 +60,7 @@ impl Kernel {
             motion: Motion::new(&parts),
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
+            steps: vec![0.0; affordable],
             next_length: 0,
             scratch: Scratch::new(&parts, harmonics.len()),
             sight: Sight::new(couplings),
@@ -117,19 +120,21 @@ impl Kernel {
             self.scratch = Scratch::new(&self.parts, harmonics);
             let unused = Coefficients::unused(&self.parts, &self.exchange, harmonics);
             self.lengths.fill(unused);
+            self.steps.fill(0.0);
             self.counts.refreshes += 1;
         }
     }
 
     /// The coefficients for this step length, computed unless they are kept from earlier steps.
     fn coefficients_for(&mut self, h: f64) -> usize {
-        if let Some(index) = self.lengths.iter().position(|length| length.step == h) {
+        if let Some(index) = self.steps.iter().position(|&step| step == h) {
             return index;
         }
         let index = self.next_length;
         self.next_length = (index + 1) % self.lengths.len();
         self.counts.factorizations += 1;
         let parts = (self.parts.as_slice(), &self.exchange);
+        self.steps[index] = h;
         self.lengths[index].compute(parts, h, &self.frequencies, &mut self.scratch);
         index
     }
@@ -200,7 +205,7 @@ impl Kernel {
                 turned += states;
             }
         }
-        let excess = (span.end - span.start) - coefficients.step;
+        let excess = (span.end - span.start) - self.steps[index];
         let harmonics = task.forcing.harmonics();
         state
             .turning

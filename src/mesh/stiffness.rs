@@ -19,7 +19,7 @@
 use super::fourier::FourierSeries;
 use super::table::Table;
 use super::tooth_geometry::{PairStiffness, SpurPair};
-use super::tooth_pair::ToothPair;
+use super::tooth_pair::{PairCurve, ToothPair};
 
 /// k over the phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ enum Shape {
         more_pairs: f64,
         split: f64,
     },
-    ToothPair(ToothPair),
+    ToothPair(PairCurve),
     ToothGeometry(PairStiffness),
     Fourier {
         mean: f64,
@@ -76,10 +76,11 @@ impl StiffnessLaw {
     /// The sum over the engaged tooth pairs.
     pub fn tooth_pair(law: ToothPair) -> StiffnessLaw {
         let (eps, ramp) = (law.contact_ratio, law.ramp.min(0.5 * law.contact_ratio));
+        let curve = PairCurve::of(law);
         StiffnessLaw {
-            shape: Shape::ToothPair(law),
+            shape: Shape::ToothPair(curve),
             starts: ascending([fraction(eps), fraction(ramp), fraction(eps - ramp)]),
-            mean: law.mean(),
+            mean: curve.mean(),
         }
     }
 
@@ -153,7 +154,9 @@ impl StiffnessLaw {
     pub fn slack(&self, tolerance: f64) -> f64 {
         match self.shape {
             _ if self.is_smooth() => f64::INFINITY,
-            Shape::ToothPair(law) if law.ramp > 0.0 && 2.0 * law.ramp <= law.contact_ratio => {
+            Shape::ToothPair(PairCurve { law, .. })
+                if law.ramp > 0.0 && 2.0 * law.ramp <= law.contact_ratio =>
+            {
                 law.ramp * (4e-3 * tolerance / law.ramp).sqrt().sqrt()
             }
             _ => 0.0,
@@ -185,9 +188,9 @@ impl StiffnessLaw {
                     fewer_pairs
                 }
             }
-            Shape::ToothPair(ref law) => self
-                .engaged(law.contact_ratio, cycle, piece)
-                .map(|x| law.one_pair(x))
+            Shape::ToothPair(ref curve) => self
+                .engaged(curve.law.contact_ratio, cycle, piece)
+                .map(|x| curve.one_pair(x))
                 .sum(),
             Shape::ToothGeometry(ref law) => self
                 .engaged(law.contact_ratio(), cycle, piece)
@@ -202,9 +205,9 @@ impl StiffnessLaw {
             Shape::Constant { .. } | Shape::Rectangular { .. } => 0.0,
             Shape::Fourier { mean, ref series } => mean * series.slope(cycle),
             Shape::Table(ref table) => table.slope(piece),
-            Shape::ToothPair(ref law) => self
-                .engaged(law.contact_ratio, cycle, piece)
-                .map(|x| law.one_pair_slope(x))
+            Shape::ToothPair(ref curve) => self
+                .engaged(curve.law.contact_ratio, cycle, piece)
+                .map(|x| curve.one_pair_slope(x))
                 .sum(),
             Shape::ToothGeometry(ref law) => self
                 .engaged(law.contact_ratio(), cycle, piece)

@@ -22,10 +22,29 @@ pub struct ToothPair {
     pub contact_ratio: f64,
 }
 
-impl ToothPair {
+/// The law with what its evaluation needs again and again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PairCurve {
+    pub(super) law: ToothPair,
+    /// 2 / eps.
+    per_contact: f64,
+    /// 1 / ramp; 0 without a ramp.
+    per_ramp: f64,
+}
+
+impl PairCurve {
+    pub(super) fn of(law: ToothPair) -> PairCurve {
+        PairCurve {
+            per_contact: 2.0 / law.contact_ratio,
+            per_ramp: if law.ramp > 0.0 { 1.0 / law.ramp } else { 0.0 },
+            law,
+        }
+    }
+
     /// Mean of the sum over the pairs: over a pitch that is the integral over one pair's contact.
     pub(super) fn mean(&self) -> f64 {
-        let (eps, ramp) = (self.contact_ratio, self.ramp.min(0.5 * self.contact_ratio));
+        let eps = self.law.contact_ratio;
+        let ramp = self.law.ramp.min(0.5 * eps);
         [[0.0, ramp], [ramp, eps - ramp], [eps - ramp, eps]]
             .iter()
             // Five points are exact: one pair's stiffness is a polynomial of degree 9.
@@ -35,34 +54,36 @@ impl ToothPair {
 
     /// Stiffness of one pair [N/m] at distance x [pitches] after its first contact.
     pub(super) fn one_pair(&self, x: f64) -> f64 {
-        let eps = self.contact_ratio;
-        let xi = 2.0 * x / eps - 1.0;
-        let near = x.min(eps - x);
-        let load_share = if near >= self.ramp {
+        let law = &self.law;
+        let xi = x * self.per_contact - 1.0;
+        let near = x.min(law.contact_ratio - x);
+        let load_share = if near >= law.ramp || law.ramp == 0.0 {
             1.0
         } else {
-            let u = (near / self.ramp).max(0.0);
+            let u = (near * self.per_ramp).max(0.0);
             u * u * u * (10.0 - u * (15.0 - 6.0 * u))
         };
-        self.pair * self.profile(xi * xi) * load_share
+        law.pair * law.profile(xi * xi) * load_share
     }
 
     /// dk/dx [N/m per pitch]; at the end of a ramp both sides agree.
     pub(super) fn one_pair_slope(&self, x: f64) -> f64 {
-        let eps = self.contact_ratio;
-        let (xi, xi_slope) = (2.0 * x / eps - 1.0, 2.0 / eps);
-        let profile_slope = -2.0 * xi * xi_slope * (self.quadratic + 2.0 * xi * xi * self.quartic);
+        let (law, eps) = (&self.law, self.law.contact_ratio);
+        let (xi, xi_slope) = (x * self.per_contact - 1.0, self.per_contact);
+        let profile_slope = -2.0 * xi * xi_slope * (law.quadratic + 2.0 * xi * xi * law.quartic);
         let near = x.min(eps - x);
-        if self.ramp == 0.0 || near >= self.ramp {
-            return self.pair * profile_slope;
+        if law.ramp == 0.0 || near >= law.ramp {
+            return law.pair * profile_slope;
         }
-        let u = (near / self.ramp).max(0.0);
+        let u = (near * self.per_ramp).max(0.0);
         let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
         let towards = if x <= 0.5 * eps { 1.0 } else { -1.0 };
-        let share_slope = 30.0 * u * u * (1.0 - u) * (1.0 - u) * towards / self.ramp;
-        self.pair * (profile_slope * share + self.profile(xi * xi) * share_slope)
+        let share_slope = 30.0 * u * u * (1.0 - u) * (1.0 - u) * towards * self.per_ramp;
+        law.pair * (profile_slope * share + law.profile(xi * xi) * share_slope)
     }
+}
 
+impl ToothPair {
     /// 1 - quadratic xi^2 - quartic xi^4 over xi^2.
     fn profile(&self, xi_squared: f64) -> f64 {
         1.0 - xi_squared * (self.quadratic + xi_squared * self.quartic)

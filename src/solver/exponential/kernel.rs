@@ -18,11 +18,9 @@ const LENGTHS: usize = 160;
 const MEMORY: usize = 16 << 20;
 /// What part of a step is tried whose forces are not found.
 const SHORTER: f64 = 0.4;
-/// Order of the accumulated error in the step.
-const ORDER: f64 = 6.0;
 /// Steps with more than the bound are still accepted up to here: the estimate is no sharper.
 const ACCEPTED: f64 = 1.5;
-/// The next step is at most so many times longer; the error it would have is that to the power of the order.
+/// The next step is at most so many times longer; its accumulated error grows with the sixth power of that.
 const GROWTH: f64 = 2.0;
 
 /// Everything a step needs.
@@ -234,7 +232,7 @@ fn growth(error: f64) -> f64 {
     if room >= GROWTH * GROWTH * GROWTH * GROWTH * GROWTH * GROWTH {
         GROWTH
     } else {
-        libm::pow(room, 1.0 / ORDER).max(0.2)
+        libm::cbrt(room.sqrt()).max(0.2)
     }
 }
 

@@ -144,14 +144,15 @@ impl Nodes {
                 }
                 let present = inverse.map(|row| product(&row, &right));
                 let forces = &mut sight.forces[coupling][1..];
+                let (mut size, mut change) = (least, 0.0);
                 for (force, present) in forces.iter_mut().zip(present) {
-                    let size = present.abs().max(force.abs()).max(least);
-                    let change = (present - *force).abs();
-                    sound &= change.is_finite();
-                    if change > changed * size {
-                        changed = change / size;
-                    }
+                    size = present.abs().max(size);
+                    change = (present - *force).abs().max(change);
+                    sound &= present.is_finite();
                     *force = present;
+                }
+                if change > changed * size {
+                    changed = change / size;
                 }
             }
             if !sound {

@@ -306,11 +306,12 @@ impl Slave {
 
     /// The simulation under the present parameters and inputs, started if need be.
     fn started(&mut self) -> Result<&mut Simulation, Error> {
-        let simulation = match self.simulation.take() {
-            Some(simulation) => simulation,
-            None => self.start()?,
-        };
-        Ok(self.simulation.insert(simulation))
+        if self.simulation.is_none() {
+            self.simulation = Some(self.start()?);
+        }
+        self.simulation
+            .as_mut()
+            .ok_or_else(|| Error::new("the simulation has not been started"))
     }
 
     fn start(&self) -> Result<Simulation, Error> {

@@ -9,6 +9,7 @@
 //!
 //! Knows no method: what a step is and how good it was, a [`Method`] says.
 
+use super::grid::Grid;
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
 /// After this many steps of one call their average length must be useful [s]: no machine vibrates in the GHz.
@@ -24,12 +25,6 @@ const TOO_SHORT_TO_END: f64 = 1e-3;
 const MOST_INTERRUPTIONS: u32 = 20;
 /// A stretch begins with a guess of this part of it.
 const FIRST_STEP: f64 = 1.0 / 16.0;
-
-/// Breakpoints that need not be met exactly are met on this many parts of the call: so few lengths of steps occur, whatever
-/// the period of the laws.
-const GRID: f64 = 64.0;
-/// Lengths that differ from the grid by this part of it come from rounding.
-const OFF_GRID: f64 = 1e-4;
 
 /// What stays the same during one call.
 #[derive(Debug)]
@@ -63,31 +58,6 @@ impl Span {
             self.end
         } else {
             self.start + part * self.step
-        }
-    }
-}
-
-/// Equal parts of a call.
-#[derive(Debug, Clone, Copy)]
-struct Grid {
-    start: f64,
-    width: f64,
-}
-
-impl Grid {
-    /// The point of the grid next to a time.
-    fn near(&self, time: f64) -> f64 {
-        self.start + ((time - self.start) / self.width).round() * self.width
-    }
-
-    /// A length without the rounding of the times it was computed from, where it is one of the grid.
-    fn length(&self, length: f64) -> f64 {
-        let parts = (length / self.width).round();
-        let exact = parts * self.width;
-        if parts >= 1.0 && (length - exact).abs() <= OFF_GRID * self.width {
-            exact
-        } else {
-            length
         }
     }
 }
@@ -193,10 +163,7 @@ impl March {
         // Less than rounding lets times differ is no stretch of time.
         let rounding = 4.0 * f64::EPSILON * until.abs();
         let slack = task.forcing.slack(task.tolerance).max(rounding);
-        let grid = Grid {
-            start: state.time,
-            width: canonical(until - state.time) / GRID,
-        };
+        let grid = Grid::over(state.time, until);
         while state.time < until - rounding {
             self.begun.fill(f64::NEG_INFINITY);
             let next = task.forcing.next_breakpoint(state.time + slack);
@@ -375,14 +342,6 @@ fn equal_steps(lengths: f64) -> u64 {
     }
 }
 
-/// The step length with its last 22 bits rounded away (relative 1e-9): communication points computed by
-/// additions then lead to the same coefficients, whatever was computed before.
-pub(super) fn canonical(step: f64) -> f64 {
-    const DROPPED: u32 = 22;
-    let bits = step.to_bits() + (1 << (DROPPED - 1));
-    f64::from_bits(bits >> DROPPED << DROPPED)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -391,13 +350,5 @@ mod tests {
     fn step_counts_are_the_next_of_a_small_set() {
         let counts = [0.3, 1.0, 1.0 + 1e-12, 2.5, 3.5, 4.5, 6.1, 9.0, 13.0, 17.0].map(equal_steps);
         assert_eq!(counts, [1, 1, 1, 3, 4, 6, 8, 12, 16, 24]);
-    }
-
-    #[test]
-    fn canonical_steps_absorb_rounding_of_communication_points() {
-        let exact = canonical(2e-5);
-        // At 10 s a difference of times carries errors of 1e-15 s.
-        assert_eq!(canonical((10.0 + 2e-5) - 10.0), exact);
-        assert!((exact / 2e-5 - 1.0).abs() < 1e-9);
     }
 }

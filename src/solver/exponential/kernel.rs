@@ -1,6 +1,7 @@
 //! One step of the collocation method.
 
-use super::super::march::{Ending, Method, Outcome, Span, Task, canonical};
+use super::super::grid::canonical;
+use super::super::march::{Ending, Method, Outcome, Span, Task};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::{Coefficients, Scratch};
 use super::events::Sighting;

@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::super::march::{Span, Task, canonical};
+use super::super::grid::canonical;
+use super::super::march::{Span, Task};
 use super::super::row::Part;
 use super::super::{
     Block, Coupling, Forcing, Instant, Piece, Row, Spring, StepError, System, Track,

@@ -1,0 +1,70 @@
+//! The phi functions of a complex number.
+
+use nalgebra::Complex;
+
+/// phi_0 to phi_6.
+pub const PHI_ORDERS: usize = 7;
+
+/// 1/k!.
+pub(super) const INVERSE_FACTORIAL: [f64; PHI_ORDERS] = [
+    1.0,
+    1.0,
+    0.5,
+    1.0 / 6.0,
+    1.0 / 24.0,
+    1.0 / 120.0,
+    1.0 / 720.0,
+];
+
+/// Size of an argument up to which the series is used.
+pub(super) const SERIES_RADIUS: f64 = 1.0;
+/// Terms of the series of phi_6 behind the first, for arguments up to a size: what is left out is below 1e-17 of it,
+/// size^n 6! / (n + 6)!.
+const SERIES_TERMS: [(f64, usize); 4] = [(1e-3, 4), (3e-2, 6), (0.3, 9), (1.0, 14)];
+/// All functions of a number.
+pub(super) fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDERS] {
+    let mut phi = [Complex::new(0.0, 0.0); PHI_ORDERS];
+    let size = z.re.abs() + z.im.abs();
+    if size <= SERIES_RADIUS {
+        let top = PHI_ORDERS - 1;
+        let mut term = Complex::new(INVERSE_FACTORIAL[top], 0.0);
+        phi[top] = term;
+        for n in 1..=terms(size) {
+            term = term * z * RECIPROCAL[n + top];
+            phi[top] += term;
+        }
+        for k in (0..top).rev() {
+            phi[k] = z * phi[k + 1] + INVERSE_FACTORIAL[k];
+        }
+    } else {
+        phi[0] = rotation(z.im) * libm::exp(z.re);
+        let inverse = z.conj() / z.norm_sqr();
+        for k in 1..PHI_ORDERS {
+            phi[k] = (phi[k - 1] - INVERSE_FACTORIAL[k - 1]) * inverse;
+        }
+    }
+    phi
+}
+
+/// 1/n.
+pub(super) const RECIPROCAL: [f64; 21] = {
+    let mut values = [0.0; 21];
+    let mut n = 1;
+    while n < values.len() {
+        values[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    values
+};
+
+/// Terms of the series behind the first for an argument of a size up to [`SERIES_RADIUS`].
+pub(super) fn terms(size: f64) -> usize {
+    let enough = SERIES_TERMS.iter().find(|(radius, _)| size <= *radius);
+    enough.map_or(SERIES_TERMS[SERIES_TERMS.len() - 1].1, |(_, terms)| *terms)
+}
+
+/// e^(i angle).
+pub(super) fn rotation(angle: f64) -> Complex<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    Complex::new(cosine, sine)
+}

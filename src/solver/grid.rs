@@ -1,0 +1,70 @@
+//! Few step lengths, whatever the communication points and the laws: coefficients are kept by length.
+
+/// Breakpoints that need not be met exactly are met on this many parts of the call: so few lengths of steps occur, whatever
+/// the period of the laws.
+const PARTS: f64 = 64.0;
+/// Lengths that differ from the grid by this part of it come from rounding.
+const OFF_GRID: f64 = 1e-4;
+
+/// Equal parts of a call.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    start: f64,
+    width: f64,
+}
+
+impl Grid {
+    /// From one time to another.
+    pub(super) fn over(start: f64, end: f64) -> Grid {
+        Grid {
+            start,
+            width: canonical(end - start) / PARTS,
+        }
+    }
+
+    /// The point of the grid next to a time.
+    pub(super) fn near(&self, time: f64) -> f64 {
+        self.start + ((time - self.start) / self.width).round() * self.width
+    }
+
+    /// A length without the rounding of the times it was computed from, where it is one of the grid.
+    pub(super) fn length(&self, length: f64) -> f64 {
+        let parts = (length / self.width).round();
+        let exact = parts * self.width;
+        if parts >= 1.0 && (length - exact).abs() <= OFF_GRID * self.width {
+            exact
+        } else {
+            length
+        }
+    }
+}
+
+/// The step length with its last 22 bits rounded away (relative 1e-9): communication points computed by
+/// additions then lead to the same coefficients, whatever was computed before.
+pub(super) fn canonical(step: f64) -> f64 {
+    const DROPPED: u32 = 22;
+    let bits = step.to_bits() + (1 << (DROPPED - 1));
+    f64::from_bits(bits >> DROPPED << DROPPED)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn canonical_steps_absorb_rounding_of_communication_points() {
+        let exact = canonical(2e-5);
+        // At 10 s a difference of times carries errors of 1e-15 s.
+        assert_eq!(canonical((10.0 + 2e-5) - 10.0), exact);
+        assert!((exact / 2e-5 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn lengths_between_points_of_the_grid_are_multiples_of_its_width() {
+        // At 10 s differences of times carry errors of 1e-15 s.
+        let grid = Grid::over(10.0, 10.0 + 2e-5);
+        let (one, two) = (grid.near(10.0 + 3.1e-6), grid.near(10.0 + 1.27e-5));
+        assert_eq!(grid.length(two - one), 31.0 * grid.width);
+        assert_eq!(grid.length(3.3 * grid.width), 3.3 * grid.width);
+    }
+}

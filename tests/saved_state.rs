@@ -5,7 +5,7 @@
 mod support;
 
 use geartrain::slave::{Experiment, SavedState, Slave};
-use support::slave::{born, stepping};
+use support::slave::{born, read, stepping};
 use support::{case_four, three_stage};
 
 /// Contact losses, back flanks, changing speed: every kind of memory a solution can have.
@@ -65,6 +65,50 @@ fn a_saved_state_continues_to_the_bit_wherever_it_is_restored() {
             .unwrap();
         assert_eq!(steps(&mut other, 40, 30), expected, "in another instance");
         assert_eq!(other.save(), end);
+    }
+}
+
+#[test]
+fn speeds_that_follow_from_others_come_back_as_they_were_in_the_file() {
+    // 420 x 23/71 = 136.05633802816902 as a number; the file says 136.056338028169.
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/reducer.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let (mut slave, interface) = stepping(&text, 1e-4);
+    let derived = |variable: &&geartrain::interface::Variable| {
+        matches!(
+            variable.quantity,
+            geartrain::interface::Quantity::DerivedSpeed { .. }
+        )
+    };
+    assert!(interface.variables.iter().find(derived).is_some());
+    let all: Vec<u32> = (0..u32::try_from(interface.variables.len()).unwrap()).collect();
+    let before = read(&mut slave, &all);
+    let saved = slave.save();
+    let mut other = born(&text);
+    other.restore(&saved).unwrap();
+    let bits = |values: &[f64]| {
+        values
+            .iter()
+            .map(|value| value.to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&read(&mut other, &all)), bits(&before));
+}
+
+#[test]
+fn what_was_restored_in_between_leaves_no_trace() {
+    for text in models() {
+        let mut slave = running(&text);
+        let start = slave.save();
+        steps(&mut slave, 0, 400); // so long that free rotors have changed their blocks
+        let later = slave.save();
+        slave.restore(&start).unwrap();
+        let expected = steps(&mut running(&text), 0, 20);
+        assert_eq!(steps(&mut slave, 0, 20), expected);
+        slave.restore(&later).unwrap();
+        steps(&mut slave, 400, 3);
+        slave.restore(&start).unwrap();
+        assert_eq!(steps(&mut slave, 0, 20), expected);
     }
 }
 

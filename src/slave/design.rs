@@ -62,15 +62,21 @@ impl Design {
         })
     }
 
-    /// Writes a parameter into a configuration of this model; the speeds of meshed rotors follow their leader's.
+    /// Writes a parameter into a configuration of this model; the speeds of meshed rotors follow their leader's. At the
+    /// packed value they are the packed ones to the bit, however they were rounded in the file.
     pub(super) fn write(&self, config: &mut Config, parameter: Parameter, value: f64) {
         *parameter.slot(config) = value;
-        for (rotor, ratio) in config.rotors.iter_mut().zip(&self.ratios) {
+        let packed = &self.config.rotors;
+        for (index, (rotor, ratio)) in config.rotors.iter_mut().zip(&self.ratios).enumerate() {
             let leading = Parameter::MeanSpeed {
                 rotor: ratio.leader,
             };
             if parameter == leading {
-                rotor.speed = value * ratio.ratio;
+                rotor.speed = if value == packed[ratio.leader].speed {
+                    packed[index].speed
+                } else {
+                    value * ratio.ratio
+                };
             }
         }
     }

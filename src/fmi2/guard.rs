@@ -5,8 +5,8 @@
 
 use core::cell::Cell;
 use core::panic::AssertUnwindSafe;
-use std::panic::{self, catch_unwind};
-use std::sync::Once;
+use std::panic::{self, PanicHookInfo, catch_unwind};
+use std::sync::OnceLock;
 
 use super::abi::{Component, Status};
 use super::logger::{Category, Messages};
@@ -74,19 +74,26 @@ pub(super) fn call(
     }
 }
 
+/// What a panic hook is.
+type Hook = dyn Fn(&PanicHookInfo<'_>) + Sync + Send;
+
+/// The hook before ours. In a static and not in our closure: that would be a box, which nobody could free when the
+/// library is unloaded.
+static BEFORE: OnceLock<Box<Hook>> = OnceLock::new();
+
 /// Runs `body`; `None` when it panicked. Prints nothing.
 pub(super) fn catching<T>(body: impl FnOnce() -> T) -> Option<T> {
     thread_local! {
         static QUIET: Cell<bool> = const { Cell::new(false) };
     }
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
+    BEFORE.get_or_init(|| {
         let before = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
-            if !QUIET.get() {
+        panic::set_hook(Box::new(|info| {
+            if let (false, Some(before)) = (QUIET.get(), BEFORE.get()) {
                 before(info);
             }
         }));
+        before
     });
     let outer = QUIET.replace(true);
     let outcome = catch_unwind(AssertUnwindSafe(body));

@@ -4,7 +4,9 @@
 
 mod bench;
 mod demo;
+mod fuzz;
 mod golden;
+mod importers;
 mod inspect;
 mod pack;
 mod python;
@@ -24,6 +26,7 @@ cargo xtask <command>
   demo                            pack examples/three_stage.toml, run the paper's four cases through
                                   FMPy, write CSV files and pictures to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
+  fuzz [--seconds N] [--seed S]   random calls, states and model files for N seconds (60); a failure names its seed
   bench [solvers|masters|start|chains|accuracy]... [--record]
                                   how fast it is: our solvers against others at the same error, a communication
                                   step through the C interface, starting an instance, growth with the number of
@@ -39,6 +42,7 @@ fn main() -> ExitCode {
         ["inspect", rest @ ..] => inspect::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),
+        ["fuzz", rest @ ..] => fuzz::command(rest),
         ["bench", parts @ ..] => bench::command(parts),
         ["golden"] => golden::command(),
         [] | ["help" | "--help" | "-h"] => {

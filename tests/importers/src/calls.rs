@@ -7,6 +7,7 @@
 
 use core::ptr;
 
+use fmi::schema::fmi2::Causality;
 use geartrain::fmi2::abi::{Component, FmuState, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 
 use State::{Failed, Initialization, Instantiated, Stepping, Terminated};
@@ -70,8 +71,8 @@ impl Call {
         let co_simulation = fmu.co_simulation();
         Arguments {
             parameter: fmu.reference("simulation.tolerance"),
-            input: fmu.reference("stage1.b1.housing.x"),
-            output: fmu.reference("stage1.b1.force_x"),
+            input: fmu.references(&Causality::Input)[0],
+            output: fmu.references(&Causality::Output)[0],
             time,
             states: co_simulation.can_get_and_set_fmu_state == Some(true),
             serialization: co_simulation.can_serialize_fmu_state == Some(true),

@@ -70,6 +70,21 @@ impl Fmu {
             .unwrap_or_else(|| panic!("{variable} has no start value"))
     }
 
+    /// Start value of a variable by its reference, where it has one.
+    pub fn start_of(&self, reference: u32) -> Option<f64> {
+        let mut variables = self.description().get_model_variables();
+        let found = variables.find(|variable| variable.value_reference == reference)?;
+        match &found.elem {
+            fmi::schema::fmi2::ScalarVariableElement::Real(real) => real.start,
+            _ => None,
+        }
+    }
+
+    /// How many variables there are; value references count from 0.
+    pub fn variable_count(&self) -> usize {
+        self.description().get_model_variables().count()
+    }
+
     /// Value references of all variables of a causality.
     pub fn references(&self, causality: &Causality) -> Vec<u32> {
         let of_causality = |variable: &&ScalarVariable| &variable.causality == causality;

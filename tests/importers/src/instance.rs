@@ -191,6 +191,27 @@ impl<'h> Instance<'h> {
         self.values(&[self.host.fmu().reference(name)])[0]
     }
 
+    /// fmi2GetReal of all variables; must succeed.
+    pub fn everything(&self) -> Vec<f64> {
+        let count = u32::try_from(self.host.fmu().variable_count()).expect("few");
+        self.values(&(0..count).collect::<Vec<_>>())
+    }
+
+    /// fmi2GetReal of all variables that can be read now; NaN for the others.
+    pub fn everything_readable(&self) -> Vec<f64> {
+        let count = u32::try_from(self.host.fmu().variable_count()).expect("few");
+        let read = |reference: u32| {
+            let mut value = [0.0];
+            let status = self.get_array::<Reals>(Some(&[reference]), 1, Some(&mut value));
+            if status == Status::Ok {
+                value[0]
+            } else {
+                f64::NAN
+            }
+        };
+        (0..count).map(read).collect()
+    }
+
     /// The getter with arrays as they are; `None` is NULL.
     pub fn get_array<T: BaseType>(
         &self,

@@ -6,7 +6,8 @@
 //!   Host        the loaded library                       Birth   the arguments of fmi2Instantiate
 //!   Instance    one slave; freed when dropped            optional  its functions behind capability flags
 //!   calls       every function with harmless arguments, and the states in which it is legal
-//!   log         what the slave told the logger
+//!   log         what the slave told the logger                 state     its saved states
+//!   fuzz        random calls, states and model files             random    chance from a seed
 //! ```
 //!
 //! The tests themselves contain no unsafe code. `GEARTRAIN_FMUS` names the folder with the FMUs; run them with
@@ -15,10 +16,13 @@
 pub mod calls;
 pub mod fmu;
 pub use fmi2_functions as functions;
+pub mod fuzz;
 pub mod host;
 pub mod instance;
 pub mod log;
 pub mod optional;
+pub mod random;
+pub mod state;
 
 pub use fmu::Fmu;
 pub use host::{Birth, Callbacks, Host};

@@ -12,7 +12,7 @@ use fmi_rs::fmi2::{CS, FMU2};
 use fmi_rs::model_description::fmi2::ModelDescription;
 use fmi_rs::sim::fmi2::cs::simulate;
 use fmi_rs::sim::fmi2::recorder::Recorder;
-use fmi_rs::sim::fmi2::{SimulationSettings, Trajectories};
+use fmi_rs::sim::fmi2::{SimulationSettings, Trajectories, VariableValue};
 
 fn unpacked(name: &str) -> FMU2Builder {
     let folder = std::env::var_os("GEARTRAIN_FMUS").expect("run with `cargo xtask test`");
@@ -105,6 +105,7 @@ fn settings(builder: &FMU2Builder, from: f64, to: f64, log: &Path) -> Simulation
 fn last_row(settings: &SimulationSettings) -> Vec<f64> {
     let description = Arc::clone(&settings.model_description);
     let all = (0..description.modelVariables.len()).collect();
+    #[expect(clippy::arc_with_non_send_sync, reason = "fmi-rs asks for an Arc")]
     let recorder = Arc::new(Recorder::new(Trajectories::new(description, all)));
     simulate(settings, None, Arc::clone(&recorder)).expect("a run");
     let log = settings.log_file.as_ref().expect("a log");
@@ -115,7 +116,7 @@ fn last_row(settings: &SimulationSettings) -> Vec<f64> {
     );
     let trajectories = recorder.trajectories.borrow();
     let last = trajectories.rows.last().expect("a row");
-    last.iter().filter_map(|value| value.to_f64()).collect()
+    last.iter().filter_map(VariableValue::to_f64).collect()
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 mod direct;
 
-use std::collections::HashMap;
 use std::path::PathBuf;
 
 use direct::{AS_PACKED, CHANGED, Case, MESHES, STEP, STEPS, expected};
@@ -18,7 +17,7 @@ fn library(name: &str) -> FmuLibrary {
 type Instance<'l> = FmuInstance<&'l FmuLibrary>;
 
 fn set(instance: &Instance<'_>, name: &str, value: f64) {
-    let values = HashMap::from([(&instance.lib.variables()[name], value)]);
+    let values = [(&instance.lib.variables()[name], value)].into();
     instance.set_reals(&values).expect("fmi2OK");
 }
 

@@ -72,6 +72,10 @@ fn usage(html: &mut Xml, config: &Config) -> io::Result<()> {
              the RMS error of every mesh force stays within simulation.tolerance = {} of its RMS.",
             simulation.step_size, simulation.tolerance
         ),
+        "Beyond that: the state can be saved, restored and written as bytes, and continues to the bit; directional \
+         derivatives of all outputs along all inputs, and output derivatives of order 1, are exact. Read a bearing force \
+         after setting the gearbox's motion and it answers without a step."
+            .to_string(),
         "Parameters may be set until initialization ends. Initial state: the static solution with the mean \
          mesh stiffness under the torques and gearbox displacements set by then (start = equilibrium), or \
          rest. Calls out of order and numbers that are not finite are refused with a log message and change \

@@ -12,9 +12,9 @@
 use super::grid::Grid;
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
-/// After this many steps of one call their average length must be useful [s]: no machine vibrates in the GHz.
+/// After this many steps of one call their average length must be useful [s]: machines vibrate below the GHz.
 const PATIENCE: u64 = 50_000;
-const SMALLEST_USEFUL_STEP: f64 = 1e-11;
+const SMALLEST_USEFUL_STEP: f64 = 1e-10;
 /// No call takes more steps: some minutes of work.
 const MOST_STEPS: u64 = 100_000_000;
 /// An event at the very start of a step still advances by this part of it; events that lie closer than that are one.

@@ -91,6 +91,36 @@ fn joined(left: &str, separator: &str, right: &str) -> String {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&joined(&self.place, ": ", &self.message))
+        f.write_str(&shortened(&joined(&self.place, ": ", &self.message)))
+    }
+}
+
+/// A name or value in a message is shown up to so many characters.
+const LONGEST_WORD: usize = 200;
+
+/// The text with words that nobody would read to their end cut off.
+fn shortened(text: &str) -> String {
+    let word = |word: &str| {
+        let length = word.chars().count();
+        if length <= LONGEST_WORD {
+            return word.to_string();
+        }
+        let start: String = word.chars().take(LONGEST_WORD).collect();
+        format!("{start}... ({length} characters)")
+    };
+    text.split(' ').map(word).collect::<Vec<String>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_stay_readable_whatever_a_file_contains() {
+        let problem =
+            Place::root().problem("law", format!("law: found \"{}\"", "ä".repeat(100_000)));
+        let text = problem.to_string();
+        assert!(text.starts_with("law: found \"ää") && text.ends_with("ä... (100002 characters)"));
+        assert!(text.chars().count() < 300);
     }
 }

@@ -19,7 +19,7 @@ fn bounded(name: &str, cases: u64) {
 
 #[test]
 fn random_calls() {
-    bounded("calls", 50);
+    bounded("calls", 30);
 }
 
 #[test]

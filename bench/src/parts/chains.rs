@@ -10,9 +10,9 @@ use crate::table::Table;
 const ROTORS: [usize; 4] = [3, 10, 30, 100];
 /// Communication step [s]: a hundredth of the mesh period, so that breakpoints of the stiffness lie on it.
 const STEP: f64 = 2e-5;
-/// Steps before the first measurement, and in each.
+/// Steps before the first measurement, and in each: one mesh period.
 const WARM_UP: u32 = 300;
-const COUNT: u32 = 500;
+const COUNT: u32 = 100;
 const TOLERANCE: f64 = 1e-4;
 
 /// Measures and prints.

@@ -36,7 +36,7 @@ pub fn model_description(config: &Config, interface: &Interface) -> String {
                 log_categories(xml)?;
                 default_experiment(xml, config)?;
                 variables(xml, interface)?;
-                structure(xml, interface)
+                structure(xml, config, interface)
             })?;
         Ok(())
     })
@@ -178,7 +178,7 @@ fn words(causality: Causality) -> (&'static str, &'static str, Option<&'static s
     }
 }
 
-fn structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
+fn structure(xml: &mut Xml, config: &Config, interface: &Interface) -> io::Result<()> {
     let with = |wanted: &[Causality]| -> Vec<usize> {
         let variables = interface.variables.iter().enumerate();
         let matching = variables.filter(|(_, variable)| wanted.contains(&variable.causality()));
@@ -190,32 +190,39 @@ fn structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
             if !outputs.is_empty() {
                 xml.create_element("Outputs").write_inner_content(|xml| {
                     for index in outputs {
-                        let inputs = interface.feed_through(&interface.variables[index]);
-                        let dependencies: Vec<String> = inputs.into_iter().map(one_based).collect();
-                        xml.create_element("Unknown")
-                            .with_attribute(("index", one_based(index).as_str()))
-                            .with_attribute(("dependencies", dependencies.join(" ").as_str()))
-                            .write_empty()?;
+                        let inputs = interface.feed_through(config, &interface.variables[index]);
+                        unknown(xml, index, Some(inputs))?;
                     }
                     Ok(())
                 })?;
             }
-            // Which inputs and parameters the initial values follow from is left open: all of them may.
+            // Which inputs and parameters the initial outputs follow from is left open: all of them may.
             let unknowns = with(&[Causality::Output, Causality::CalculatedParameter]);
             if !unknowns.is_empty() {
                 xml.create_element("InitialUnknowns")
                     .write_inner_content(|xml| {
                         for index in unknowns {
-                            let index = one_based(index);
-                            xml.create_element("Unknown")
-                                .with_attribute(("index", index.as_str()))
-                                .write_empty()?;
+                            let origin = interface.origin(config, &interface.variables[index]);
+                            unknown(xml, index, origin)?;
                         }
                         Ok(())
                     })?;
             }
             Ok(())
         })?;
+    Ok(())
+}
+
+/// A variable that depends on others: an empty list means on none, and no list on any.
+fn unknown(xml: &mut Xml, index: usize, dependencies: Option<Vec<usize>>) -> io::Result<()> {
+    let mut element = xml
+        .create_element("Unknown")
+        .with_attribute(("index", one_based(index).as_str()));
+    if let Some(dependencies) = dependencies {
+        let list: Vec<String> = dependencies.into_iter().map(one_based).collect();
+        element = element.with_attribute(("dependencies", list.join(" ").as_str()));
+    }
+    element.write_empty()?;
     Ok(())
 }
 

@@ -4,6 +4,7 @@
 //! documentation page are all made from this table; names are made nowhere else. Modal indices count from
 //! one here and from zero everywhere else.
 
+mod dependencies;
 mod fingerprint;
 mod parameter;
 mod table;
@@ -75,7 +76,7 @@ pub enum Quantity {
     /// A number of the configuration.
     Parameter(Parameter),
     /// Speed that follows from the leader of the train.
-    DerivedSpeed { rotor: usize },
+    DerivedSpeed { rotor: usize, leader: usize },
     /// Natural frequency of a lateral basis mode.
     LateralFrequency { rotor: usize, mode: usize },
     /// Natural frequency of a torsional basis mode; `mode` counts the rigid rotation.
@@ -143,22 +144,6 @@ impl Interface {
     /// The FMU's guid: a fingerprint of this table, the model and the library's version.
     pub fn fingerprint(&self, config: &Config) -> String {
         fingerprint::fingerprint(self, config)
-    }
-
-    /// The inputs that a variable reacts to at the same instant, as indices into the table, ascending.
-    pub fn feed_through(&self, variable: &Variable) -> Vec<usize> {
-        let Quantity::BearingForce { input, .. } = variable.quantity else {
-            return Vec::new();
-        };
-        let acts = |variable: &Variable| match variable.quantity {
-            Quantity::BaseDisplacement { bearing, .. } | Quantity::BaseVelocity { bearing, .. } => {
-                bearing == input
-            }
-            _ => false,
-        };
-        (0..self.variables.len())
-            .filter(|&index| acts(&self.variables[index]))
-            .collect()
     }
 }
 

@@ -246,7 +246,7 @@ impl Slave {
         }
         match quantity {
             Quantity::Parameter(parameter) => Ok(*parameter.slot(&mut self.config)),
-            Quantity::DerivedSpeed { rotor } => Ok(self.config.rotors[rotor].speed),
+            Quantity::DerivedSpeed { rotor, .. } => Ok(self.config.rotors[rotor].speed),
             _ if self.life_cycle == LifeCycle::Instantiated => {
                 let name = &self.design.variable(reference)?.name;
                 Err(Error::new(format!(

@@ -19,15 +19,18 @@ impl Table<'_> {
                     text,
                 );
             } else {
-                let leader = &train.rotors[ratios[index].leader].name;
+                let leader = ratios[index].leader;
                 let text = format!(
-                    "Mean speed of {}, follows from {leader}.mean_speed",
-                    rotor.name
+                    "Mean speed of {}, follows from {}.mean_speed",
+                    rotor.name, train.rotors[leader].name
                 );
                 self.row(
                     name,
                     Unit::RadianPerSecond,
-                    Quantity::DerivedSpeed { rotor: index },
+                    Quantity::DerivedSpeed {
+                        rotor: index,
+                        leader,
+                    },
                     text,
                 );
             }

@@ -61,6 +61,13 @@ pub struct Experiment {
 /// the time itself: masters add up steps in floating point.
 const TIME_SLACK: (f64, f64) = (1e-3, 1e-9);
 
+/// Steps that lead no further than this time [s], or this part of the time itself, do nothing: masters lose as much by
+/// rounding, and no solver can divide it.
+const NOTHING: (f64, f64) = (1e-15, 32.0 * f64::EPSILON);
+
+/// The last step may pass the stop time by this part of the run, and this part of the time itself: what ten thousand steps add up.
+const STOP_SLACK: (f64, f64) = (1e-9, 1e-12);
+
 /// Communication steps beyond this [s] are mistakes.
 const LONGEST_STEP: f64 = 1e9;
 
@@ -200,32 +207,35 @@ impl Slave {
         };
         if step.is_nan() || step <= 0.0 || step > LONGEST_STEP {
             return Err(Error::new(format!(
-                "the communication step must be greater than 0 and at most {LONGEST_STEP} s, found {step} s"
+                "the communication step must be greater than 0 and at most {LONGEST_STEP:?} s, found {step:?} s"
             )));
         }
         let (now, end) = (simulation.time(), time + step);
-        let slack = TIME_SLACK.0 * step + TIME_SLACK.1 * now.abs();
+        let nothing = NOTHING.0.max(NOTHING.1 * now.abs());
+        let slack = TIME_SLACK.0 * step + TIME_SLACK.1 * now.abs() + nothing;
         if (time - now).is_nan() || (time - now).abs() > slack {
             return Err(Error::new(format!(
-                "the step starts at {time} s, but the slave is at {now} s"
+                "the step starts at {time:?} s, but the slave is at {now:?} s"
             )));
         }
-        if end <= now {
+        if end - now <= nothing {
             self.rate = None;
-            return Ok(()); // shorter than what masters lose by rounding
+            return Ok(());
         }
         let stop = self
             .experiment
             .and_then(|experiment| Some((experiment.start, experiment.stop?)));
-        if let Some((start, stop)) = stop.filter(|(start, stop)| end > stop + 1e-9 * (stop - start))
-        {
+        let too_far = |&(start, stop): &(f64, f64)| {
+            end > stop + STOP_SLACK.0 * (stop - start) + STOP_SLACK.1 * stop.abs()
+        };
+        if let Some((start, stop)) = stop.filter(too_far) {
             return Err(Error::new(format!(
-                "the step from {time} s by {step} s ends after the stop time {stop} s (start {start} s)"
+                "the step from {time:?} s by {step:?} s ends after the stop time {stop:?} s (start {start:?} s)"
             )));
         }
         if let Err(error) = simulation.advance_along(end, self.rate.as_ref()) {
             self.life_cycle = LifeCycle::Failed;
-            let step = format!("the step from {time} s by {step} s");
+            let step = format!("the step from {time:?} s by {step:?} s");
             return Err(Error::new(format!("{step} failed: {error}")));
         }
         if self.rate.take().is_some() {

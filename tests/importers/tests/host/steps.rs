@@ -38,7 +38,7 @@ fn refused_step(time: f64, step: f64, words: &[String]) {
 #[test]
 fn steps_of_no_length_are_refused_and_forgotten() {
     for step in [0.0, -0.0, -STEP, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        refused_and_forgotten(3.0 * STEP, step, &["greater than 0", &step.to_string()]);
+        refused_and_forgotten(3.0 * STEP, step, &["greater than 0", &format!("{step:?}")]);
     }
 }
 
@@ -54,7 +54,7 @@ fn steps_from_elsewhere_are_refused_and_forgotten() {
         f64::INFINITY,
         f64::MIN,
     ] {
-        refused_and_forgotten(time, STEP, &["starts at", &time.to_string()]);
+        refused_and_forgotten(time, STEP, &["starts at", &format!("{time:?}")]);
     }
 }
 
@@ -64,17 +64,46 @@ fn a_step_that_ends_beyond_all_numbers_is_refused_and_forgotten() {
 }
 
 #[test]
-fn a_step_of_next_to_nothing_changes_next_to_nothing() {
+fn a_step_of_next_to_nothing_changes_nothing() {
     // OMSimulator ends a run with h = 1.1e-16.
     let host = Host::of("three_stage");
+    let undisturbed = host.running();
+    undisturbed.steps(0, 5);
     let instance = host.running();
-    instance.steps(0, 3);
-    let before = instance.value("mesh12.force");
-    for step in [1e-16, 1.1e-16, f64::MIN_POSITIVE, 5e-324] {
-        instance.accepted(instance.step(3.0 * STEP, step));
-        assert!((instance.value("mesh12.force") / before - 1.0).abs() < 1e-9);
+    for index in 0..5 {
+        let time = f64::from(index) * STEP;
+        for step in [1e-16, 1.1e-16, f64::MIN_POSITIVE, 5e-324] {
+            instance.accepted(instance.step(time, step));
+        }
+        assert_eq!(bits(&[instance.time()]), bits(&[time]));
+        instance.steps(index, 1);
     }
-    instance.steps(3, 2);
+    assert_eq!(outputs(&instance), outputs(&undisturbed));
+}
+
+#[test]
+fn steps_of_a_few_roundings_are_accepted_and_add_up() {
+    // The first step of a run is the one that the solver divides.
+    let host = Host::of("three_stage");
+    for start in [0.0_f64, 0.3, 1e3, -1e5] {
+        let rounding = start.abs().max(0.1).next_up() - start.abs().max(0.1);
+        for count in 1..60 {
+            let instance = host.instance();
+            instance.accepted(instance.setup(None, start, None));
+            instance.accepted(instance.enter());
+            instance.accepted(instance.exit());
+            let (mut time, step) = (start, f64::from(count) * rounding);
+            for _ in 0..40 {
+                instance.accepted(instance.step(time, step));
+                time += step;
+            }
+            let behind = time - instance.time();
+            assert!(
+                (0.0..=1e-15_f64.max(32.0 * f64::EPSILON * time.abs())).contains(&behind),
+                "{start}, {count}: {behind:e}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -109,6 +138,25 @@ fn steps_beyond_the_stop_time_are_refused_and_up_to_it_accepted() {
     let text = instance.refused(instance.step(5.0 * STEP, STEP));
     assert!(text.contains("stop time"), "{text}");
     instance.accepted(instance.terminate());
+}
+
+#[test]
+fn a_clock_far_from_zero_reaches_the_stop_time() {
+    // Every sum is rounded by up to 7e-12 s there, always in the same direction: 3.5e-9 s after 500 steps.
+    let host = Host::of("three_stage");
+    let (start, stop) = (1e5, 1e5 + 500.0 * STEP);
+    let instance = host.instance();
+    instance.accepted(instance.setup(None, start, Some(stop)));
+    instance.accepted(instance.enter());
+    instance.accepted(instance.exit());
+    let mut time = start;
+    for _ in 0..500 {
+        instance.accepted(instance.step(time, STEP));
+        time += STEP;
+    }
+    assert!(time > stop + 1e-9 * (stop - start), "nothing to forgive");
+    let text = instance.refused(instance.step(time, 0.01 * STEP));
+    assert!(text.contains("stop time"), "{text}");
 }
 
 #[test]

@@ -167,3 +167,20 @@ fn a_failed_step_leaves_the_state_before_it() {
     instance.initialize();
     instance.steps(0, 10);
 }
+
+#[test]
+fn a_state_from_anywhere_in_life_goes_on_to_the_bit_wherever_it_is_restored() {
+    let host = Host::of("three_stage");
+    for from in State::ALL {
+        let origin = instance_in(&host, from);
+        let bytes = origin.bytes(&origin.save());
+        let rest = rest_of_life(&origin, from);
+        for to in State::ALL {
+            let instance = instance_in(&host, to);
+            let (status, state) = instance.read(&bytes);
+            instance.accepted(status);
+            instance.accepted(instance.restore(&state.expect("a state")));
+            assert_eq!(rest_of_life(&instance, from), rest, "{from:?} in {to:?}");
+        }
+    }
+}

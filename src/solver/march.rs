@@ -12,9 +12,9 @@
 use super::grid::Grid;
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
-/// After this many steps of one call their average length must be useful [s]: machines vibrate below the GHz.
-const PATIENCE: u64 = 50_000;
-const SMALLEST_USEFUL_STEP: f64 = 1e-10;
+/// After so many steps of one call their average length must be at least this [s]: machines vibrate below the GHz, though
+/// events may lie close for a while.
+const PATIENCE: [(u64, f64); 2] = [(5_000, 1e-11), (50_000, 1e-9)];
 /// No call takes more steps: some minutes of work.
 const MOST_STEPS: u64 = 100_000_000;
 /// An event at the very start of a step still advances by this part of it; events that lie closer than that are one.
@@ -310,7 +310,8 @@ impl March {
     /// A call has to end: refuses to go on without end with steps that lead nowhere.
     fn check_progress(&self, time: f64, step: f64) -> Result<(), StepError> {
         let average = (time - self.since) / self.tried as f64;
-        if self.tried >= PATIENCE && average < SMALLEST_USEFUL_STEP {
+        let lost = |&(tried, least): &(u64, f64)| self.tried >= tried && average < least;
+        if PATIENCE.iter().any(lost) {
             return Err(StepError::StepTooSmall { time, step });
         }
         if self.tried >= MOST_STEPS {

@@ -114,6 +114,12 @@ impl Coefficients {
         }
     }
 
+    /// Makes room for parts taken apart anew: what depends on their groups; everything else is overwritten when computed.
+    pub(super) fn forget(&mut self, parts: &[Part]) {
+        self.gain = BlockDiagonal::zero(parts);
+        self.ramp_gain = BlockDiagonal::zero(parts);
+    }
+
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
         let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Readings>();

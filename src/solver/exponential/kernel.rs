@@ -117,8 +117,9 @@ impl Kernel {
             self.motion = Motion::new(&self.parts);
             let harmonics = self.frequencies.len();
             self.scratch = Scratch::new(&self.parts, harmonics);
-            let unused = Coefficients::unused(&self.parts, &self.exchange, harmonics);
-            self.lengths.fill(unused);
+            for coefficients in &mut self.lengths {
+                coefficients.forget(&self.parts);
+            }
             self.steps.fill(0.0);
             self.counts.refreshes += 1;
         }

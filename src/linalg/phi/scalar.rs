@@ -18,9 +18,10 @@ pub(super) const INVERSE_FACTORIAL: [f64; PHI_ORDERS] = [
 
 /// Size of an argument up to which the series is used.
 pub(super) const SERIES_RADIUS: f64 = 1.0;
-/// Terms of the series of phi_6 behind the first, for arguments up to a size: what is left out is below 1e-17 of it,
-/// size^n 6! / (n + 6)!.
-const SERIES_TERMS: [(f64, usize); 4] = [(1e-3, 4), (3e-2, 6), (0.3, 9), (1.0, 14)];
+/// Terms n of the series of phi_6 behind the first, for arguments up to a size: what is left out is below 2e-17 of it,
+/// size^(n + 1) 6! / (n + 7)!.
+const SERIES_TERMS: [(f64, usize); 4] = [(1e-3, 4), (3e-2, 6), (0.3, 10), (1.0, 14)];
+
 /// All functions of a number.
 pub(super) fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDERS] {
     let mut phi = [Complex::new(0.0, 0.0); PHI_ORDERS];

@@ -261,6 +261,9 @@ impl Mesh {
 
     /// How far from the end of a piece of the stiffness a step may end at prescribed speed [s].
     pub(super) fn slack(&self, tolerance: f64) -> f64 {
+        if self.phase_rate == 0.0 {
+            return f64::INFINITY; // the phase never comes there
+        }
         self.law.slack(tolerance) / self.phase_rate.abs()
     }
 

@@ -28,7 +28,7 @@ pub(super) struct Exchange {
 }
 
 /// What the force at every node does to one pair's sensor.
-pub(super) type Influence = [Readings; NODES];
+type Influence = [Readings; NODES];
 
 /// The numbers of all pairs for one step length.
 #[derive(Debug, Clone)]

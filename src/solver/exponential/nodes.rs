@@ -10,9 +10,9 @@
 
 use super::super::march::{Span, Task};
 use super::super::{Forcing, Line, Piece};
-use super::exchange::{Exchange, Influence, Influences};
+use super::exchange::{Exchange, Influences};
 use super::polynomials::{CHECKS, END, LAGRANGE_AT_CHECKS, NODES, PLACES, POINTS};
-use super::sight::{Sight, instant};
+use super::sight::{Sight, copy, instant};
 use crate::linalg::dot;
 
 /// Sweeps after which a step counts as too long.
@@ -35,7 +35,7 @@ pub(super) struct Nodes {
     inverse: Vec<[[f64; UNKNOWN]; UNKNOWN]>,
     right: Vec<[f64; UNKNOWN]>,
     /// What the cubic leaves out of the forces at the checks.
-    pub(super) missing: Vec<[f64; CHECKS.len()]>,
+    missing: Vec<[f64; CHECKS.len()]>,
     /// How the forces at the end change with that.
     pub(super) change: Vec<f64>,
     /// Evaluations of all forces.
@@ -99,8 +99,7 @@ impl Nodes {
         let pairs = exchange.pairs.iter().zip(&influences.of_pairs);
         for ((pair, influence), mutual) in pairs.zip(&mut self.mutual) {
             let spring = [0, 1, END].map(|point| self.lines[point][pair.sensor].spring);
-            let push = |node: usize, point: usize| -> f64 {
-                let influence: &Influence = influence;
+            let push = |node: usize, point: usize| {
                 spring[point].stiffness * influence[node][point]
                     + spring[point].damping * influence[node][POINTS + point]
             };
@@ -231,7 +230,7 @@ impl Nodes {
             }
         }
         let trial = &mut sight.trial;
-        super::sight::copy(&sight.points[END], trial);
+        copy(&sight.points[END], trial);
         exchange.exert_missing(influences, &self.missing, trial);
         if straight {
             // From the differences: forces themselves would leave their rounding.
@@ -271,11 +270,12 @@ fn product(x: &[f64; UNKNOWN], y: &[f64; UNKNOWN]) -> f64 {
     x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
 }
 
-const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// The equations of a coupling that nothing answers to.
+const IDENTITY: [[f64; UNKNOWN]; UNKNOWN] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// By cofactors.
-fn inverse([a, b, c]: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let cross = |x: &[f64; 3], y: &[f64; 3]| {
+fn inverse([a, b, c]: &[[f64; UNKNOWN]; UNKNOWN]) -> [[f64; UNKNOWN]; UNKNOWN] {
+    let cross = |x: &[f64; UNKNOWN], y: &[f64; UNKNOWN]| {
         [
             x[1] * y[2] - x[2] * y[1],
             x[2] * y[0] - x[0] * y[2],

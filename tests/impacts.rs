@@ -267,7 +267,7 @@ fn momentum_passes_through_losses_of_contact() {
         let momentum = |run: &Run| {
             let of = |rotor: usize| {
                 let rotor = &run.model.rotors[rotor];
-                let rigid = rotor.offset + 2 * rotor.counts.lateral;
+                let rigid = rotor.torsional.range().start;
                 run.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
             };
             of(0) - of(1) // equal base radii

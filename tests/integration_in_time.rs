@@ -313,7 +313,7 @@ fn the_mesh_passes_on_momentum_and_takes_none() {
     let motion = simulation.motion();
     let momentum = |rotor: usize| {
         let rotor = &motion.model.rotors[rotor];
-        let rigid = rotor.offset + 2 * rotor.counts.lateral;
+        let rigid = rotor.torsional.range().start;
         motion.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
     };
     let found = momentum(0) - momentum(1);

@@ -252,7 +252,7 @@ fn unbalanced_torque_is_carried_by_rigid_acceleration() {
     // No mean rotation: equal shafts turn against each other, theta_one = theta_two at the gears.
     let theta = |rotor: usize| {
         let rotor = &model.rotors[rotor];
-        let rigid = rotor.offset + 2 * rotor.counts.lateral;
+        let rigid = rotor.torsional.range().start;
         found.position[rigid] * rotor.gears[0].theta.entry(rigid)
     };
     assert!(

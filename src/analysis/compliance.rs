@@ -9,8 +9,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::ModalModel;
-use crate::solver::{Block, Row};
+use crate::model::{Coordinates, ModalModel};
+use crate::solver::Row;
 
 /// A torsional stiffness below this is none [rad^2/s^2]: 0.05 Hz.
 const RIGID: f64 = 0.1;
@@ -52,10 +52,10 @@ pub struct Compliance {
 /// unless a rotor is not held.
 pub fn static_compliances(model: &ModalModel) -> Vec<Compliance> {
     let mut found = Vec::new();
-    let rotors = model.rotors.iter().zip(model.system.blocks.chunks(2));
-    for (index, (rotor, blocks)) in rotors.enumerate() {
-        let lateral = inverse(&blocks[0]);
-        let torsional = inverse_without_rotation(&blocks[1]);
+    for (index, rotor) in model.rotors.iter().enumerate() {
+        let blocks = &model.system.blocks;
+        let lateral = inverse(&rotor.lateral.stiffness(blocks));
+        let torsional = inverse_without_rotation(&rotor.torsional.stiffness(blocks));
         let mut add = |place: Place, torsional: bool, values: [f64; 2]| {
             let spot = Spot {
                 rotor: index,
@@ -64,10 +64,11 @@ pub fn static_compliances(model: &ModalModel) -> Vec<Compliance> {
             };
             found.push(Compliance { spot, values });
         };
-        let twist = |row: &Row| [along(row, &blocks[1], &torsional); 2];
+        let twist = |row: &Row| [along(row, &rotor.torsional, &torsional); 2];
         for (gear, station) in rotor.gears.iter().enumerate() {
             if let Some(lateral) = &lateral {
-                let values = [&station.x, &station.y].map(|row| along(row, &blocks[0], lateral));
+                let rows = [&station.x, &station.y];
+                let values = rows.map(|row| along(row, &rotor.lateral, lateral));
                 add(Place::Gear(gear), false, values);
             }
             add(Place::Gear(gear), true, twist(&station.theta));
@@ -78,7 +79,7 @@ pub fn static_compliances(model: &ModalModel) -> Vec<Compliance> {
                 add(
                     Place::Bearing(bearing),
                     false,
-                    rows.map(|row| along(row, &blocks[0], lateral)),
+                    rows.map(|row| along(row, &rotor.lateral, lateral)),
                 );
             }
         }
@@ -90,23 +91,23 @@ pub fn static_compliances(model: &ModalModel) -> Vec<Compliance> {
 }
 
 /// w K^-1 w'.
-fn along(row: &Row, block: &Block, inverse: &DMatrix<f64>) -> f64 {
-    let entries = block.range().map(|coordinate| row.entry(coordinate));
-    let w = DVector::from_iterator(block.len(), entries);
+fn along(row: &Row, place: &Coordinates, inverse: &DMatrix<f64>) -> f64 {
+    let entries = place.range().map(|coordinate| row.entry(coordinate));
+    let w = DVector::from_iterator(inverse.nrows(), entries);
     w.dot(&(inverse * &w))
 }
 
-fn inverse(block: &Block) -> Option<DMatrix<f64>> {
-    let lu = block.stiffness.clone().full_piv_lu();
+fn inverse(stiffness: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let lu = stiffness.clone().full_piv_lu();
     let pivots = lu.u().diagonal().abs();
     (pivots.min() > LOOSE * pivots.max())
         .then(|| lu.try_inverse())
         .flatten()
 }
 
-fn inverse_without_rotation(block: &Block) -> DMatrix<f64> {
-    let mut inverse = DMatrix::zeros(block.len(), block.len());
-    let eigen = block.stiffness.clone().symmetric_eigen();
+fn inverse_without_rotation(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut inverse = DMatrix::zeros(stiffness.nrows(), stiffness.ncols());
+    let eigen = stiffness.clone().symmetric_eigen();
     for (value, shape) in eigen
         .eigenvalues
         .iter()

@@ -18,7 +18,7 @@ use core::f64::consts::TAU;
 use nalgebra::Complex;
 
 use crate::linalg::eigenpairs;
-use crate::model::{ModalModel, NaturalVibration};
+use crate::model::{Coordinates, ModalModel, NaturalVibration};
 use crate::solver::Block;
 
 /// q* K q per q* q below which nothing holds a motion [rad^2/s^2]: (2 pi 0.05 Hz)^2.
@@ -125,13 +125,14 @@ pub(super) fn vibration_of(
     if energy.total().abs() < RIGID {
         return None;
     }
-    let moving =
-        |block: &Block| -> f64 { shape[block.range()].iter().map(Complex::norm_sqr).sum() };
+    let moving = |place: &Coordinates| -> f64 {
+        let entries = shape[place.range()].iter();
+        entries.map(Complex::norm_sqr).sum()
+    };
     let kinetic: Vec<[f64; 2]> = model
-        .system
-        .blocks
-        .chunks(2)
-        .map(|blocks| [moving(&blocks[0]), moving(&blocks[1])])
+        .rotors
+        .iter()
+        .map(|rotor| [moving(&rotor.lateral), moving(&rotor.torsional)])
         .collect();
     let sums = |rotor: &usize| kinetic[*rotor][0] + kinetic[*rotor][1];
     let rotor = (0..kinetic.len())
@@ -201,7 +202,15 @@ impl StrainEnergy {
             }
             sum
         };
-        let pairs = model.system.blocks.chunks(2);
+        let twists = |index: usize| {
+            let mut rotors = model.rotors.iter();
+            rotors.any(|rotor| rotor.torsional.block() == index)
+        };
+        let blocks = |torsional: bool| -> f64 {
+            let blocks = model.system.blocks.iter().enumerate();
+            let those = blocks.filter(|&(index, _)| twists(index) == torsional);
+            those.map(|(_, block)| in_block(block)).sum()
+        };
         let [re, im] = [
             shape.iter().map(|entry| entry.re).collect::<Vec<f64>>(),
             shape.iter().map(|entry| entry.im).collect(),
@@ -211,8 +220,8 @@ impl StrainEnergy {
             mesh.mean_stiffness() * (re * re + im * im)
         };
         StrainEnergy {
-            lateral: pairs.clone().map(|blocks| in_block(&blocks[0])).sum(),
-            torsional: pairs.map(|blocks| in_block(&blocks[1])).sum(),
+            lateral: blocks(false),
+            torsional: blocks(true),
             mesh: model.meshes.iter().map(in_mesh).sum(),
         }
     }
@@ -226,7 +235,7 @@ impl StrainEnergy {
 fn whirl(model: &ModalModel, rotor: usize, shape: &[Complex<f64>]) -> Option<Whirl> {
     let rotor = &model.rotors[rotor];
     let n = rotor.counts.lateral;
-    let (a, b) = shape[rotor.offset..rotor.offset + 2 * n].split_at(n);
+    let (a, b) = shape[rotor.lateral.range()].split_at(n);
     let turning: f64 = a
         .iter()
         .zip(b)

@@ -4,13 +4,14 @@
 //! the number of the first one.
 
 use super::inputs::{self, SupportVibration};
+use super::layout::{Coordinates, Layout};
 use super::radial::RadialBearing;
 use super::spin::Spin;
 use super::{Bearing, Mesh, ModalModel, Rotor, Station, excitation, monitors};
 use crate::config::{SpeedMode, TorqueCoupling};
 use crate::mesh::{GearMotion, LineOfAction};
 use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
-use crate::solver::{Block, Coupling, Row, System};
+use crate::solver::{Coupling, Row, System};
 use crate::train::{self, GearAddress, GearTrain};
 
 impl ModalModel {
@@ -21,12 +22,22 @@ impl ModalModel {
         counts: Option<&[ModeCounts]>,
     ) -> Result<ModalModel, ReductionError> {
         let free = train.simulation.speed == SpeedMode::Free;
-        let mut system = System::default();
-        let mut rotors = Vec::new();
+        let mut reduced = Vec::new();
         for (index, rotor) in train.rotors.iter().enumerate() {
             let fixed = counts.map(|counts| counts[index]);
-            let modal = ModalRotor::reduce(rotor, &train.basis, fixed)?;
-            rotors.push(add_rotor(&mut system, rotor, modal, free));
+            reduced.push(ModalRotor::reduce(rotor, &train.basis, fixed)?);
+        }
+        let counts: Vec<ModeCounts> = reduced.iter().map(ModalRotor::counts).collect();
+        let layout = Layout::of(&counts, &vec![false; counts.len()], 0);
+        let mut system = System {
+            size: layout.size(),
+            blocks: layout.empty_blocks(),
+            ..System::default()
+        };
+        let mut rotors = Vec::new();
+        let places = layout.lateral.into_iter().zip(layout.torsional);
+        for ((rotor, modal), places) in train.rotors.iter().zip(reduced).zip(places) {
+            rotors.push(add_rotor(&mut system, rotor, modal, places, free));
         }
         let mut meshes = Vec::new();
         for mesh in &train.meshes {
@@ -60,14 +71,28 @@ impl ModalModel {
     }
 }
 
-/// Appends the rotor's two blocks to the system.
-fn add_rotor(system: &mut System, rotor: &train::Rotor, modal: ModalRotor, free: bool) -> Rotor {
-    let offset = system.size;
-    let counts = modal.counts();
+/// Puts the rotor's stiffness and damping in their places: lateral and torsional.
+fn add_rotor(
+    system: &mut System,
+    rotor: &train::Rotor,
+    modal: ModalRotor,
+    (lateral, torsional): (Coordinates, Coordinates),
+    free: bool,
+) -> Rotor {
+    lateral.put(
+        &mut system.blocks,
+        &modal.lateral_stiffness,
+        &modal.lateral_damping,
+    );
+    torsional.put(
+        &mut system.blocks,
+        &modal.torsional_stiffness,
+        &modal.torsional_damping,
+    );
     let builder = StationBuilder {
         modal: &modal,
-        offset,
-        block: system.blocks.len(),
+        lateral: &lateral,
+        torsional: &torsional,
     };
     let station = |position: f64| builder.station(position);
     let bearing = |bearing: &train::Bearing| {
@@ -80,9 +105,8 @@ fn add_rotor(system: &mut System, rotor: &train::Rotor, modal: ModalRotor, free:
             bearing: bearing.clone(),
         }
     };
-    let added = Rotor {
-        offset,
-        counts,
+    Rotor {
+        counts: modal.counts(),
         has_rigid_rotation: modal.has_rigid_rotation(),
         speed: rotor.speed,
         angle: rotor.angle,
@@ -107,51 +131,30 @@ fn add_rotor(system: &mut System, rotor: &train::Rotor, modal: ModalRotor, free:
             .iter()
             .map(|probe| station(probe.position))
             .collect(),
-        mean_rotation: Row::new(
-            builder.block + 1,
-            offset + 2 * counts.lateral,
-            modal.mean_rotation.clone(),
-        ),
+        mean_rotation: torsional.row(&modal.mean_rotation),
         lateral_frequencies: modal.lateral_frequencies.clone(),
         torsional_frequencies: modal.torsional_frequencies.clone(),
-        modal: modal.clone(),
-    };
-    let torsional_offset = offset + 2 * counts.lateral;
-    system.blocks.push(Block {
-        offset,
-        damping: modal.lateral_damping,
-        stiffness: modal.lateral_stiffness,
-    });
-    system.blocks.push(Block {
-        offset: torsional_offset,
-        damping: modal.torsional_damping,
-        stiffness: modal.torsional_stiffness,
-    });
-    system.size = torsional_offset + counts.torsional;
-    added
+        lateral,
+        torsional,
+        modal,
+    }
 }
 
-/// Makes rows over the coordinates of one rotor, whose lateral block is number `block`.
+/// Makes rows over the coordinates of one rotor.
 struct StationBuilder<'a> {
     modal: &'a ModalRotor,
-    offset: usize,
-    block: usize,
+    lateral: &'a Coordinates,
+    torsional: &'a Coordinates,
 }
 
 impl StationBuilder<'_> {
     fn station(&self, position: f64) -> Station {
         let phi = self.modal.lateral_row(position);
         let none = vec![0.0; phi.len()];
-        let torsional_offset = self.offset + 2 * phi.len();
-        let lateral = |values: [&[f64]; 2]| Row::new(self.block, self.offset, values.concat());
         Station {
-            x: lateral([&phi, &none]),
-            y: lateral([&none, &phi]),
-            theta: Row::new(
-                self.block + 1,
-                torsional_offset,
-                self.modal.torsional_row(position),
-            ),
+            x: self.lateral.row(&[phi.as_slice(), &none].concat()),
+            y: self.lateral.row(&[none.as_slice(), &phi].concat()),
+            theta: self.torsional.row(&self.modal.torsional_row(position)),
         }
     }
 }
@@ -228,11 +231,14 @@ fn mesh_rows(rotors: &[Rotor], gears: [GearAddress; 2], line: &LineOfAction) -> 
 /// Two couplings for every bearing with a radial force.
 fn add_radial_bearings(system: &mut System, rotors: &[Rotor]) -> Vec<RadialBearing> {
     let mut radial = Vec::new();
-    let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
-    for (input, bearing) in bearings.enumerate() {
+    let bearings = rotors
+        .iter()
+        .flat_map(|rotor| rotor.bearings.iter().map(move |bearing| (rotor, bearing)));
+    for (input, (rotor, bearing)) in bearings.enumerate() {
         if let Some(force) = bearing.bearing.nonlinear {
             radial.push(RadialBearing {
                 input,
+                block: rotor.lateral.block(),
                 force,
                 first_coupling: system.couplings.len(),
                 law: system.laws,
@@ -252,8 +258,8 @@ fn add_radial_bearings(system: &mut System, rotors: &[Rotor]) -> Vec<RadialBeari
 /// The couplings of a rotor that turns freely: two that observe, and one on every lateral coordinate.
 fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::Rotor) -> Spin {
     let modal = &rotors[index];
-    let (n, torsional) = (modal.counts.lateral, 2 * index + 1);
-    let rigid = modal.offset + 2 * n;
+    let n = modal.counts.lateral;
+    let rigid = modal.torsional.range().start;
     let rotation = modal.mean_rotation.entry(rigid);
     let entries = |columns: &mut dyn Iterator<Item = &Row>| -> Vec<(usize, f64)> {
         let numbered = columns.map(|column| column.entry(rigid)).enumerate();
@@ -261,8 +267,9 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
     };
     let torques = entries(&mut system.couplings.iter().map(|coupling| &coupling.column));
     let loads = entries(&mut inputs::columns(rotors).iter());
-    let drag = &system.blocks[torsional].damping;
-    let drag = Row::new(torsional, rigid, drag.row(0).iter().copied().collect());
+    let drag = &system.blocks[modal.torsional.block()].damping;
+    let drag: Vec<f64> = drag.row(0).iter().copied().collect();
+    let drag = modal.torsional.row(&drag);
     let turn = system.couplings.len();
     for row in [modal.mean_rotation.clone(), drag] {
         system.couplings.push(Coupling {
@@ -273,7 +280,7 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
     for i in 0..2 * n {
         let mut unit = vec![0.0; 2 * n];
         unit[i] = 1.0;
-        let unit = Row::new(2 * index, modal.offset, unit);
+        let unit = modal.lateral.row(&unit);
         system.couplings.push(Coupling {
             row: unit.clone(),
             column: unit,

@@ -60,7 +60,7 @@ pub(super) fn rotating_load(
         phase: rotor.angle,
         cosine: vec![0.0; 2 * n],
         sine: vec![0.0; 2 * n],
-        offset: modal.offset,
+        offset: modal.lateral.range().start,
     };
     let mut add = |load: &[f64], factor: f64, phase: f64| {
         let (sine, cosine) = libm::sincos(phase);
@@ -189,10 +189,7 @@ impl Forcing for Excitation<'_> {
 
     fn blocks_into(&self, slow: &[f64], blocks: &mut [Block]) {
         for (spin, &speed) in self.model.spins.iter().zip(slow) {
-            let Block {
-                stiffness, damping, ..
-            } = &mut blocks[2 * spin.rotor];
-            self.model.rotors[spin.rotor].lateral_at(speed, stiffness, damping);
+            self.model.rotors[spin.rotor].lateral_at(speed, blocks);
         }
     }
 }

@@ -22,6 +22,7 @@ mod coupled;
 mod equilibrium;
 mod excitation;
 mod inputs;
+mod layout;
 mod monitors;
 mod motion;
 mod radial;
@@ -33,7 +34,7 @@ use nalgebra::DMatrix;
 use crate::config::{Planar, TorqueCoupling};
 use crate::mesh::{GearLoad, LineOfAction, StiffnessLaw, TransmissionError};
 use crate::rotor::{ModalRotor, ModeCounts};
-use crate::solver::{Harmonic, Row, System};
+use crate::solver::{Block, Harmonic, Row, System};
 use crate::train::{self, GearAddress};
 
 pub use change::Change;
@@ -41,6 +42,7 @@ pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
 pub use inputs::{BaseMotion, Course, Inputs};
+pub use layout::Coordinates;
 pub use motion::Motion;
 pub use radial::RadialBearing;
 
@@ -69,8 +71,10 @@ pub struct ModalModel {
 /// One rotor: where its coordinates are and what sits on it.
 #[derive(Debug, Clone)]
 pub struct Rotor {
-    /// Index of A_1 in q.
-    pub offset: usize,
+    /// Where A and B are in q.
+    pub lateral: Coordinates,
+    /// Where its torsion is in q.
+    pub torsional: Coordinates,
     /// Number of modes and static shapes.
     pub counts: ModeCounts,
     /// Whether the first torsional coordinate is the rigid rotation.
@@ -181,16 +185,6 @@ impl ModalModel {
         (own < mesh.law_count()).then_some((mesh, own))
     }
 
-    /// Number of the lateral block that a bearing holds; `input` is its place among the inputs.
-    fn lateral_block_of(&self, input: usize) -> usize {
-        let mut before = 0;
-        let holds = |rotor: &Rotor| {
-            before += rotor.bearings.len();
-            input < before
-        };
-        2 * self.rotors.iter().position(holds).unwrap_or(0)
-    }
-
     /// The meshes of a gear, and which side of each it is.
     fn sides_of(&self, gear: GearAddress) -> impl Iterator<Item = (usize, usize)> {
         let sides = move |(index, mesh): (usize, &Mesh)| {
@@ -219,9 +213,12 @@ impl ModalModel {
 }
 
 impl Rotor {
-    /// Overwrites stiffness and damping of [A, B], 2n x 2n, with those at another speed [rad/s].
-    fn lateral_at(&self, speed: f64, stiffness: &mut DMatrix<f64>, damping: &mut DMatrix<f64>) {
-        self.modal.lateral_at(speed, stiffness, damping);
+    /// Overwrites stiffness and damping of [A, B] with those at another speed [rad/s].
+    fn lateral_at(&self, speed: f64, blocks: &mut [Block]) {
+        let n = 2 * self.counts.lateral;
+        let (mut stiffness, mut damping) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        self.modal.lateral_at(speed, &mut stiffness, &mut damping);
+        self.lateral.put(blocks, &stiffness, &damping);
     }
 }
 

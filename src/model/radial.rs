@@ -19,6 +19,8 @@ const TOUCHING: usize = 1;
 pub struct RadialBearing {
     /// The bearing's place among the inputs.
     pub(super) input: usize,
+    /// The block that it holds.
+    pub(super) block: usize,
     /// Its law.
     pub(super) force: RadialForce,
     /// The couplings of x and y are this one and the next.

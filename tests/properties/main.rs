@@ -135,9 +135,9 @@ fn the_equilibrium_leaves_nothing_but_a_rigid_acceleration() {
         let left = DVector::from_vec(load.clone()) - stiffness * DVector::from_vec(found.position);
         let size = DVector::from_vec(load).amax();
         for (rotor, index) in model.rotors.iter().zip(0..) {
-            let rigid = rotor.offset + 2 * rotor.counts.lateral;
+            let rigid = rotor.torsional.range().start;
             let end = rigid + rotor.counts.torsional;
-            for i in (rotor.offset..end).filter(|&i| i != rigid) {
+            for i in (rotor.lateral.range().start..end).filter(|&i| i != rigid) {
                 prop_assert!(
                     left[i].abs() < 1e-9 * size,
                     "rotor {index}, {i}: {} of {size}",
@@ -275,7 +275,7 @@ fn momentum_grows_with_the_external_torques_alone() {
                 .collect();
             let momentum = |run: &Run| -> f64 {
                 let of = |(rotor, ratio): (&geartrain::model::Rotor, &f64)| {
-                    let rigid = rotor.offset + 2 * rotor.counts.lateral;
+                    let rigid = rotor.torsional.range().start;
                     ratio * run.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
                 };
                 run.model.rotors.iter().zip(&ratios).map(of).sum()

@@ -43,7 +43,7 @@ impl Table<'_> {
 
     pub(super) fn modal_coordinates(&mut self, rotor: &Rotor, modal: &ModalRotor) {
         let shaft = &rotor.name;
-        let (n, offset) = (modal.counts.lateral, modal.offset);
+        let (n, offset) = (modal.counts.lateral, modal.lateral.range().start);
         for (plane, letter) in AXES.into_iter().enumerate() {
             for mode in 0..n {
                 let number = mode + 1;
@@ -61,7 +61,8 @@ impl Table<'_> {
                 );
             }
         }
-        let (first, rigid) = (offset + 2 * n, usize::from(modal.has_rigid_rotation));
+        let first = modal.torsional.range().start;
+        let rigid = usize::from(modal.has_rigid_rotation);
         if modal.has_rigid_rotation {
             let quantity = Quantity::Modal { coordinate: first };
             let text =

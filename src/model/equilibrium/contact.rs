@@ -142,7 +142,7 @@ impl<'a> Laws<'a> {
             };
             (slope > 0.0).then(|| RadialContact {
                 input: bearing.input,
-                block: self.model.lateral_block_of(bearing.input),
+                block: bearing.block,
                 rows,
                 base,
                 radius,

@@ -18,10 +18,10 @@
 
 use nalgebra::{DMatrix, DVector, DVectorView, Dyn, SymmetricEigen};
 
-use super::super::ModalModel;
+use super::super::{Coordinates, ModalModel};
 use super::NoEquilibrium;
 use crate::linalg::{multiply_add, solve_in_place};
-use crate::solver::{Block, Row};
+use crate::solver::Row;
 
 /// Smallest pivot of a block's stiffness relative to its largest below which the block is loose:
 /// rounding leaves 1e-16, a mode of 1 Hz beside one of 1 MHz has 1e-12.
@@ -56,17 +56,17 @@ impl<'a> Held<'a> {
     ) -> Result<Self, NoEquilibrium> {
         let mut inverses = Vec::new();
         let mut rigid = Vec::new();
-        for (index, blocks) in model.system.blocks.chunks(2).enumerate() {
-            let loose = NoEquilibrium { rotor: Some(index) };
-            let mut lateral = blocks[0].stiffness.clone();
-            for spring in springs
-                .iter()
-                .filter(|spring| spring.block == Some(2 * index))
-            {
-                let parts = (
-                    spring.row.in_block(2 * index),
-                    spring.column.in_block(2 * index),
-                );
+        for (index, block) in model.system.blocks.iter().enumerate() {
+            if let Some(torsion) = Torsion::of(model, index) {
+                if mu == 0.0 {
+                    rigid.extend(torsion.rigid_rotations());
+                }
+                inverses.push(torsion.inverse(mu));
+                continue;
+            }
+            let mut lateral = block.stiffness.clone();
+            for spring in springs.iter().filter(|spring| spring.block == Some(index)) {
+                let parts = (spring.row.in_block(index), spring.column.in_block(index));
                 if let (Some(row), Some(column)) = parts {
                     let (row, column) = (DVector::from_vec(row), DVector::from_vec(column));
                     lateral.ger(spring.stiffness, &column, &row, 1.0);
@@ -75,13 +75,9 @@ impl<'a> Held<'a> {
             for i in 0..lateral.nrows() {
                 lateral[(i, i)] += mu;
             }
-            inverses.push(invert(&lateral).ok_or(loose)?);
-            let torsion = Torsion::of(model, index);
-            if mu == 0.0 {
-                rigid.extend(torsion.rigid_rotations());
-            }
-            let inverse = torsion.inverse(mu);
-            inverses.push(inverse);
+            let mut rotors = model.rotors.iter();
+            let rotor = rotors.position(|rotor| rotor.lateral.block() == index);
+            inverses.push(invert(&lateral).ok_or(NoEquilibrium { rotor })?);
         }
         Ok(Held {
             model,
@@ -160,23 +156,20 @@ impl<'a> Held<'a> {
 }
 
 /// The torsional motions of one rotor, which are symmetric.
-struct Torsion {
-    block: usize,
-    offset: usize,
+struct Torsion<'a> {
+    place: &'a Coordinates,
     modes: SymmetricEigen<f64, Dyn>,
 }
 
-impl Torsion {
-    fn of(model: &ModalModel, rotor: usize) -> Torsion {
-        let block = 2 * rotor + 1;
-        let Block {
-            offset, stiffness, ..
-        } = &model.system.blocks[block];
-        Torsion {
-            block,
-            offset: *offset,
-            modes: stiffness.clone().symmetric_eigen(),
-        }
+impl<'a> Torsion<'a> {
+    /// Those in a block; `None` where it holds others.
+    fn of(model: &'a ModalModel, block: usize) -> Option<Torsion<'a>> {
+        let mut places = model.rotors.iter().map(|rotor| &rotor.torsional);
+        let place = places.find(|place| place.block() == block)?;
+        Some(Torsion {
+            place,
+            modes: place.stiffness(&model.system.blocks).symmetric_eigen(),
+        })
     }
 
     fn each(&self) -> impl Iterator<Item = (f64, DVectorView<'_, f64>)> {
@@ -187,7 +180,7 @@ impl Torsion {
     /// What nothing holds; what only basis supports held, subtracted again, is one of them.
     fn rigid_rotations(&self) -> impl Iterator<Item = Row> {
         let rigid = self.each().filter(|(value, _)| value.abs() < RIGID);
-        rigid.map(|(_, shape)| Row::new(self.block, self.offset, shape.iter().copied().collect()))
+        rigid.map(|(_, shape)| self.place.row(&shape.iter().copied().collect::<Vec<f64>>()))
     }
 
     /// (K + mu)^-1, without the rigid rotations where mu is zero.
@@ -204,13 +197,12 @@ impl Torsion {
 
 /// The rigid rotations of all rotors that none of these rows resists, orthonormal.
 pub(super) fn free_rotations(model: &ModalModel, rows: &[&Row]) -> Vec<Row> {
-    let rigid: Vec<Row> = (0..model.rotors.len())
-        .flat_map(|rotor| {
-            Torsion::of(model, rotor)
-                .rigid_rotations()
-                .collect::<Vec<Row>>()
-        })
-        .collect();
+    let mut rigid: Vec<Row> = Vec::new();
+    for block in 0..model.system.blocks.len() {
+        if let Some(torsion) = Torsion::of(model, block) {
+            rigid.extend(torsion.rigid_rotations());
+        }
+    }
     let on_rigid = DMatrix::from_fn(rows.len(), rigid.len(), |i, j| rows[i].dot_row(&rigid[j]));
     let combine = |weights: DVectorView<'_, f64>| {
         let mut sum = Row::default();

@@ -1,4 +1,4 @@
-"""Run the four cases of the paper through FMPy and draw its figures 5 to 16 again.
+"""Reproduce Table I and figures 3 to 16 of the paper: four cases of excitation, simulated by the FMU.
 
 The model is the three-stage geared rotor of Choy, Tu, Zakrajsek and Townsend (1991), see `three_stage.toml`:
 
@@ -8,43 +8,47 @@ The model is the three-stage geared rotor of Choy, Tu, Zakrajsek and Townsend (1
     case 4   gearbox vibration      large imbalance
 
 The paper gives the frequency of the gearbox vibration, 1200 Hz, but no amplitudes. The 25e-6 m (x and y a quarter
-period apart), 5e-6 kg m and 1.5e-4 kg m below are our assumptions: compare which lines stand out, not how high they are.
-Every case is evaluated after SETTLING_TIME; with SETTLING_TIME = 0 the free lateral vibration of the start is seen.
+period apart), 5e-6 kg m and 1.5e-4 kg m below are our assumptions: compare which lines stand out, not their heights.
+Each case is evaluated twice: in the first half second, in which the start from the static equilibrium still rings, and
+after 3.5 s, when that has gone.
 
-    python paper_cases.py three_stage.fmu OUTPUT_FOLDER
+    cargo xtask inspect examples/three_stage.toml --format json > inspection.json
+    python examples/paper_cases.py target/fmu/three_stage.fmu inspection.json OUTPUT_FOLDER
 
-writes the evaluated window of each case as case_1.csv ... case_4.csv (SI units, the FMU's names), and the pictures.
-It needs fmpy, numpy and matplotlib (`requirements.txt`).
+writes one picture per figure, table_1.csv, and the settled half second of each case as case_1.csv ... case_4.csv (SI
+units, the FMU's names).
 """
+
 import argparse
-from collections.abc import Callable
+import csv
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
+import fmpy
 import matplotlib
 import numpy as np
-from fmpy import simulate_fmu
 
 matplotlib.use("Agg")  # draws into files, needs no screen
 import matplotlib.pyplot as plt  # noqa: E402
 
 STEP = 2e-5  # communication step [s]: sampling at 50 kHz
-SETTLING_TIME = 3.5  # [s]; the lateral vibration of stage 3 at 110 Hz decays slowest
-WINDOW = 0.5  # evaluated after that [s]: a spectral line every 2 Hz
+WINDOW = 0.5  # length of what is evaluated [s]: a spectral line every 2 Hz
+SETTLED = 3.5  # start of the second window [s]; the lateral vibration of stage 3 at 110 Hz decays slowest
 SAMPLES = round(WINDOW / STEP)
 
 STAGES = ("stage1", "stage2", "stage3")
+ROMAN = dict(zip(STAGES, ("I", "II", "III")))
 MESHES = {"mesh12": "stage2", "mesh13": "stage3"}  # and the stage each one drives
-ORDINALS = ("first", "second")
-LATERAL_FREQUENCIES = {"stage1": (115, 145), "stage2": (160, 189), "stage3": (110, 200)}  # Table I [Hz]
-TORSIONAL_FREQUENCIES = {"stage1": (355, 1090), "stage2": (550, 1610), "stage3": (280, 820)}  # Table I [Hz]
+LATERAL = {"stage1": (115, 145), "stage2": (160, 189), "stage3": (110, 200)}  # Table I [Hz]
+TORSIONAL = {"stage1": (355, 1090), "stage2": (550, 1610), "stage3": (280, 820)}  # Table I [Hz]
 ROTATION, VIBRATION, MESHING = 50, 1200, 1800  # [Hz]
 
 MICRO, KILO = 1e6, 1e-3  # from SI to the units of the pictures
 LATERAL_UNIT, TORSIONAL_UNIT = "µm √kg", "µrad √(kg m²)"  # modal coordinates are mass-normalised
 
 COLOUR = {"stage1": "#0072B2", "stage2": "#D55E00", "stage3": "#009E73"}  # Okabe and Ito: safe for the colour-blind
-NATURAL = "#CC79A7"  # marks natural frequencies
+NATURAL, START = "#AA3377", "0.75"  # natural frequencies; spectra of the first half second
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,13 @@ CASES = (
 )
 
 
+@dataclass(frozen=True)
+class Result:
+    """One structured array per window, with a field per variable."""
+    start: np.ndarray
+    settled: np.ndarray
+
+
 def recorded_variables() -> list[str]:
     names = [f"{mesh}.force" for mesh in MESHES]
     for stage in STAGES:
@@ -70,30 +81,24 @@ def recorded_variables() -> list[str]:
     return names
 
 
-def progress_line(stop_time: float) -> Callable[..., bool]:
-    """A callback for simulate_fmu that adds to the current line at every 20 %."""
-    percent = 0
-
-    def step_finished(time: float, _recorder) -> bool:
-        nonlocal percent
-        if time > stop_time * (percent + 20) / 100 - STEP / 2:
-            percent += 20
-            print(f" {percent} %", end="", flush=True)
-        return True  # go on
-
-    return step_finished
-
-
-def simulate(fmu: Path, case: Case) -> np.ndarray:
-    """Run one case; returns the evaluated window, a structured array with one field per variable."""
+def simulate(fmu: Path, case: Case) -> Result:
+    """Run one case in three pieces: two windows sampled every STEP, and one long step between them."""
+    description = fmpy.read_model_description(fmu)
+    instance = fmpy.instantiate_fmu(fmpy.extract(fmu), description)
     start_values = {f"{stage}.gear_unbalance.moment": case.imbalance for stage in STAGES}
     start_values |= {f"gearbox_vibration.amplitude_{axis}": case.vibration for axis in "xy"}
-    stop_time = SETTLING_TIME + WINDOW
-    print(f"{case.title}:", end="", flush=True)
-    result = simulate_fmu(fmu, stop_time=stop_time, output_interval=STEP, start_values=start_values,
-                          output=recorded_variables(), step_finished=progress_line(stop_time))
-    print()
-    return np.asarray(result)[-SAMPLES:]
+
+    def piece(begin: float, end: float, step: float, **options) -> np.ndarray:
+        result = fmpy.simulate_fmu(fmu, start_time=begin, stop_time=end, output_interval=step,
+                                   output=recorded_variables(), model_description=description, fmu_instance=instance,
+                                   initialize=begin == 0.0, terminate=end > SETTLED, set_stop_time=False, **options)
+        return np.asarray(result)[:-1]
+
+    start = piece(0.0, WINDOW, STEP, start_values=start_values)
+    piece(WINDOW, SETTLED, SETTLED - WINDOW)
+    settled = piece(SETTLED, SETTLED + WINDOW, STEP)
+    instance.freeInstance()
+    return Result(start, settled)
 
 
 def spectrum(signal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -112,138 +117,201 @@ def strongest_lines(signal: np.ndarray, count: int) -> list[tuple[float, float]]
     return [(frequency[i], amplitude[i]) for i in highest]
 
 
-def print_table(result: np.ndarray) -> None:
+def short(value: float) -> str:
+    return f"{round(value, 1) + 0.0:.1f}"  # + 0.0 turns -0.0 into 0.0
+
+
+def table_1(rotors: list[dict], path: Path) -> None:
+    """Table I beside the frequencies of the model."""
+    rows = []
+    for kind, published in (("torsional", TORSIONAL), ("lateral", LATERAL)):
+        for rotor in rotors:
+            for mode, (ours, paper) in enumerate(zip(rotor[f"{kind}_frequencies"], published[rotor["name"]]), start=1):
+                rows.append((kind, mode, rotor["name"], f"{ours:.2f}", paper, f"{100 * (ours / paper - 1):+.2f}"))
+    header = ("kind", "mode", "rotor", "computed_hz", "table_1_hz", "deviation_percent")
+    with open(path, "w", newline="") as file:
+        csv.writer(file).writerows([header, *rows])
+    print("\nTable I           " + "".join(f"{f'stage {ROMAN[stage]} [Hz]':>20}" for stage in STAGES))
+    for kind, mode in sorted({row[:2] for row in rows}, reverse=True):
+        of_mode = [row for row in rows if row[:2] == (kind, mode)]
+        cells = [f"{ours:>9} (paper {paper})" for *_, ours, paper, _ in of_mode]
+        print(f"{kind:>11} {mode:<6}" + "".join(f"{cell:>20}" for cell in cells))
+
+
+def print_lines(result: np.ndarray) -> None:
+    """The strongest lines of the settled case 4."""
     quantities = [(f"{mesh}.force", KILO, "kN") for mesh in MESHES]
     quantities += [(f"{stage}.gear.{axis}", MICRO, "um") for stage in STAGES for axis in "xy"]
     quantities += [(f"{stage}.modal.x[{mode}]", MICRO, "um sqrt(kg)") for mode in (1, 2) for stage in STAGES]
     quantities += [(f"{stage}.modal.theta[{mode}]", MICRO, "urad sqrt(kg m2)") for mode in (1, 2) for stage in STAGES]
-    print(f"\n{'case 4':22}{'mean':>9}   strongest lines: amplitude @ frequency [Hz]")
+    print(f"\n{'case 4, settled':22}{'mean':>9}   strongest lines: amplitude @ frequency [Hz]")
     for name, factor, unit in quantities:
         signal = factor * result[name]
         lines = "".join(f"{height:9.3f} @{frequency:5.0f}" for frequency, height in strongest_lines(signal, 4))
-        print(f"{name:22}{one_decimal(signal.mean()):>9}{lines}  {unit}")
+        print(f"{name:22}{short(signal.mean()):>9}{lines}  {unit}")
 
 
-def one_decimal(value: float) -> str:
-    return f"{round(value, 1) + 0.0:.1f}"  # + 0.0 turns -0.0 into 0.0
-
-
-def draw_time(ax, signal: np.ndarray, duration: float, colour: str, title: str) -> None:
+def draw_time(ax, signal: np.ndarray, duration: float, colour: str, unit: str, title: str) -> None:
     """The last part of a signal about its mean, the mean above it."""
     count = round(duration / STEP)
-    ax.plot(1e3 * STEP * np.arange(count), (signal - signal.mean())[-count:], color=colour, linewidth=0.8)
+    ax.plot(1e3 * STEP * np.arange(count), (signal - signal.mean())[-count:], color=colour, linewidth=0.9)
     ax.set(xlim=(0, 1e3 * duration), xlabel="time, ms")
-    ax.set_title(title, loc="left", fontsize=8)
-    ax.set_title(f"mean {one_decimal(signal.mean())}", loc="right", fontsize=8)
+    ax.set_title(title, loc="left")
+    ax.set_title(f"mean {short(signal.mean())} {unit}", loc="right")
 
 
-def draw_spectrum(ax, signal: np.ndarray, upper_limit: float, colour: str, excitation, natural) -> None:
-    """The amplitudes, with excitation frequencies (dotted, numbered) and natural frequencies (dashed)."""
+def draw_spectrum(ax, start: np.ndarray, settled: np.ndarray, highest: float, colour: str, excitation, natural) -> None:
+    """Settled amplitudes before those of the start; excitation (dotted) and natural frequencies (dashed) are marked."""
+    label = dict(xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=8)
     for line in excitation:
-        ax.axvline(line, color="0.5", linewidth=0.8, linestyle=":", zorder=0)
-        ax.annotate(f"{line}", (line, 1.0), (0, 2), xycoords=("data", "axes fraction"), textcoords="offset points",
-                    ha="center", fontsize=7.5, color="0.3")
-    for line in natural:
+        ax.axvline(line, color="0.35", linewidth=1.0, linestyle=":", zorder=0)
+        ax.annotate(f"{line}", (line, 1.0), (0, 2), ha="center", color="0.35", **label)
+    for index, line in enumerate(sorted(natural)):
         ax.axvline(line, color=NATURAL, linewidth=1.0, linestyle="--", zorder=0)
-    ax.semilogy(*spectrum(signal), color=colour, linewidth=1.0)
-    ax.set(xlim=(-upper_limit / 100, upper_limit), xlabel="frequency, Hz")
+        below = -3 - 22 * (index % 2)  # neighbours may be close
+        ax.annotate(f"{line}", (line, 1.0), (2, below), va="top", rotation=90, color=NATURAL, **label)
+    ax.semilogy(*spectrum(start), color=START, linewidth=1.6, label=f"first {WINDOW} s")
+    ax.semilogy(*spectrum(settled), color=colour, linewidth=1.1, label="settled")
+    ax.set(xlim=(-highest / 100, highest), xlabel="frequency, Hz")
 
 
-def save(figure, path: Path) -> None:
-    figure.savefig(path, dpi=150)
+def save(figure, title: str, path: Path) -> None:
+    figure.suptitle(title)
+    figure.savefig(path, dpi=110)
     plt.close(figure)
     print(f"written: {path}")
 
 
-def plot_orbits(results: list[np.ndarray], path: Path) -> None:
-    """Figures 5 to 7: rows are stages, columns cases; an orbit too small for the scale of its row is magnified."""
-    figure, axes = plt.subplots(3, 4, figsize=(13, 12), sharex="row", sharey="row", layout="constrained")
+def plot_mode_shapes(rotors: list[dict], mode: int, path: Path) -> None:
+    """Figures 3 and 4: columns are stages."""
+    figure, axes = plt.subplots(2, 3, figsize=(13, 6.5), sharey="row", layout="constrained")
+    for column, rotor in zip(axes.T, rotors):
+        for ax, kind in zip(column, ("lateral", "torsional")):
+            shapes = rotor["mode_shapes"]
+            shape = np.array(shapes[kind][mode - 1])
+            shape *= np.sign(shape[np.argmax(np.abs(shape))])  # a mode has no sign of its own
+            ax.axhline(0, color="0.6", linewidth=0.8)
+            ax.plot(shapes["positions"], shape, color=COLOUR[rotor["name"]], linewidth=1.8)
+            for mark, label, places in (("^", "bearing", rotor["bearings"]), ("o", "gear", rotor["gears"])):
+                z = [place["position"] for place in places]
+                height = np.interp(z, shapes["positions"], shape) if mark == "o" else np.zeros(len(z))
+                if mark == "o" or kind == "lateral":
+                    ax.plot(z, height, mark, color="0.2", markerfacecolor="white", label=label)
+            ax.set(xlabel="z, m")
+            ax.set_title(f"stage {ROMAN[rotor['name']]}, {kind}: {rotor[f'{kind}_frequencies'][mode - 1]:.0f} Hz")
+    axes[0, 0].legend(loc="best", frameon=False)
+    axes[0, 0].set_ylabel("displacement, 1/√kg")
+    axes[1, 0].set_ylabel("rotation, 1/√(kg m²)")
+    order = ("First", "Second")[mode - 1]
+    save(figure, f"Figure {mode + 2}: {order} vibration modes of the three rotors (mass normalised)", path)
+
+
+def plot_orbits(results: list[Result], stage: str, number: int, path: Path) -> None:
+    """Figures 5 to 7: one panel per case; an orbit too small for the common scale is magnified."""
+    figure, axes = plt.subplots(2, 2, figsize=(10, 10.4), sharex=True, sharey=True, layout="constrained")
     revolution = round(1 / ROTATION / STEP)
-    for row, stage in enumerate(STAGES):
-        signals = [[MICRO * result[f"{stage}.gear.{axis}"] for axis in "xy"] for result in results]
-        reach = 1.1 * max(np.abs(s - s.mean()).max() for orbit in signals for s in orbit)
-        for ax, case, (x, y) in zip(axes[row], CASES, signals):
-            orbit = [(s - s.mean())[-revolution:] for s in (x, y)]
-            ax.plot(*orbit, color=COLOUR[stage], linewidth=0.7)
-            ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel="x, µm")
-            if np.abs(orbit).max() < reach / 10:
-                inset = ax.inset_axes((0.58, 0.1, 0.4, 0.4), title="magnified", aspect="equal", xticks=())
-                inset.plot(*orbit, color=COLOUR[stage], linewidth=0.7)
-            mean = f"mean ({one_decimal(x.mean())}, {one_decimal(y.mean())})"
-            ax.set_title(f"{case.title}\n{mean}, peak-peak {np.ptp(x):.2f} × {np.ptp(y):.2f}", fontsize=8)
-        axes[row, 0].set_ylabel(f"Figure {5 + row}: stage {row + 1}\ny, µm")
-    figure.suptitle("Figures 5 to 7: orbits of the gears about their mean, one revolution (in µm, one scale per row)")
-    save(figure, path)
+    signals = [[MICRO * result.settled[f"{stage}.gear.{axis}"] for axis in "xy"] for result in results]
+    reach = 1.1 * max(np.abs(s - s.mean()).max() for orbit in signals for s in orbit)
+    for letter, ax, case, (x, y) in zip("abcd", axes.flat, CASES, signals):
+        orbit = [(s - s.mean())[-revolution:] for s in (x, y)]
+        ax.plot(*orbit, color=COLOUR[stage], linewidth=0.9)
+        ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel="x, µm", ylabel="y, µm")
+        if np.abs(orbit).max() < reach / 8:
+            inset = ax.inset_axes((0.56, 0.08, 0.4, 0.4), aspect="equal")
+            inset.set_title("magnified", fontsize=8)
+            inset.tick_params(labelsize=7)
+            inset.plot(*orbit, color=COLOUR[stage], linewidth=0.9)
+        mean = f"mean ({short(x.mean())}, {short(y.mean())}) µm"
+        ax.set_title(f"({letter}) {case.title}\n{mean}, peak-peak {np.ptp(x):.2f} × {np.ptp(y):.2f} µm", fontsize=9)
+    title = f"Figure {number}: Orbit of the gear of stage {ROMAN[stage]} about its mean, one settled revolution"
+    save(figure, title, path)
 
 
-def plot_lateral_mode(results: list[np.ndarray], mode: int, first_figure: int, path: Path) -> None:
-    """Figures 8 to 10 (mode 1) or 11 to 13 (mode 2): one block per stage, columns are cases."""
-    figure = plt.figure(figsize=(14, 14), layout="constrained")
-    figure.suptitle(f"Figures {first_figure} to {first_figure + 2}: {ORDINALS[mode - 1]} lateral modal coordinate in x")
-    for row, (stage, block) in enumerate(zip(STAGES, figure.subfigures(3, 1, hspace=0.03))):
-        natural = LATERAL_FREQUENCIES[stage][mode - 1]
-        heading = f"Figure {first_figure + row}: stage {row + 1} (dashed: natural frequency {natural} Hz)"
-        block.suptitle(heading, fontsize=11)
-        upper, lower = block.subplots(2, 4, sharex="row", sharey="row")
-        for column, (case, result) in enumerate(zip(CASES, results)):
-            signal = MICRO * result[f"{stage}.modal.x[{mode}]"]
-            draw_time(upper[column], signal, 2 / ROTATION, COLOUR[stage], case.title)
-            draw_spectrum(lower[column], signal, 2000, COLOUR[stage], (ROTATION, VIBRATION, MESHING), (natural,))
-        upper[0].set_ylabel(f"about mean, {LATERAL_UNIT}")
-        lower[0].set(ylim=(1e-4, 2e3), ylabel=f"amplitude, {LATERAL_UNIT}")
-    save(figure, path)
+def plot_lateral_mode(results: list[Result], stage: str, mode: int, number: int, path: Path) -> None:
+    """Figures 8 to 10 (mode 1) and 11 to 13 (mode 2): rows are cases, time and spectrum."""
+    figure, axes = plt.subplots(4, 2, figsize=(13, 12.5), sharex="col", sharey="col", width_ratios=(1, 1.5),
+                                layout="constrained")
+    natural = LATERAL[stage][mode - 1]
+    name = f"{stage}.modal.x[{mode}]"
+    for letters, (left, right), case, result in zip(("ab", "cd", "ef", "gh"), axes, CASES, results):
+        start, settled = MICRO * result.start[name], MICRO * result.settled[name]
+        draw_time(left, settled, 2 / ROTATION, COLOUR[stage], LATERAL_UNIT, f"({letters[0]}) {case.title}")
+        draw_spectrum(right, start, settled, 2000, COLOUR[stage], (ROTATION, VIBRATION, MESHING), (natural,))
+        right.set_title(f"({letters[1]})", loc="right")
+        left.set_ylabel(f"A{mode} about mean, {LATERAL_UNIT}")
+        right.set(ylim=(1e-4, 3e3), ylabel=f"amplitude, {LATERAL_UNIT}")
+    axes[0, 1].legend(loc="upper center", framealpha=1.0)
+    order = ("First", "Second")[mode - 1]
+    save(figure, f"Figure {number}: {order} lateral modal coordinate of stage {ROMAN[stage]}, in x "
+                 f"(dashed: its natural frequency, {natural} Hz)", path)
 
 
-def plot_mesh_forces(result: np.ndarray, path: Path) -> None:
+def plot_mesh_forces(result: Result, path: Path) -> None:
     """Figure 14. Sampling folds the weak harmonics above 25 kHz back, for example 25 * 1800 Hz to 5000 Hz."""
-    figure, axes = plt.subplots(2, 2, figsize=(13, 7), sharey="col", width_ratios=(1, 1.6), layout="constrained")
-    natural = [TORSIONAL_FREQUENCIES[stage][0] for stage in STAGES]
+    figure, axes = plt.subplots(2, 2, figsize=(13, 7), sharex="col", width_ratios=(1, 1.6), layout="constrained")
+    natural = [TORSIONAL[stage][0] for stage in STAGES]
     for (left, right), (mesh, driven) in zip(axes, MESHES.items()):
-        force = KILO * result[f"{mesh}.force"]
-        draw_time(left, force, 5 / MESHING, COLOUR[driven], f"Mesh of stages 1 and {driven[-1]}")
-        draw_spectrum(right, force, 6000, COLOUR[driven], (VIBRATION, MESHING, 2 * MESHING, 3 * MESHING), natural)
+        start, settled = KILO * result.start[f"{mesh}.force"], KILO * result.settled[f"{mesh}.force"]
+        draw_time(left, settled, 5 / MESHING, COLOUR[driven], "kN", f"Stages I and {ROMAN[driven]}")
+        excitation = (VIBRATION, MESHING, 2 * MESHING, 3 * MESHING)
+        draw_spectrum(right, start, settled, 6000, COLOUR[driven], excitation, natural)
         left.set_ylabel("force about mean, kN")
         right.set(ylim=(1e-4, 30), ylabel="amplitude, kN")
-    figure.suptitle("Figure 14: mesh forces in case 4 (dashed: first torsional frequencies 280, 355, 550 Hz)")
-    save(figure, path)
+    axes[0, 1].legend(loc="upper center", framealpha=1.0)
+    save(figure, "Figure 14: Mesh forces in case 4 (dashed: first torsional frequencies of the rotors)", path)
 
 
-def plot_torsional_modes(result: np.ndarray, path: Path) -> None:
-    """Figures 15 and 16: one block per mode, columns are stages."""
-    figure = plt.figure(figsize=(13, 10), layout="constrained")
-    figure.suptitle("Figures 15 and 16: torsional modal coordinates in case 4 (dashed: natural frequency)")
-    for row, block in enumerate(figure.subfigures(2, 1, hspace=0.03)):
-        block.suptitle(f"Figure {15 + row}: {ORDINALS[row]} torsional mode", fontsize=11)
-        upper, lower = block.subplots(2, 3, sharex="row", sharey="row")
-        for column, stage in enumerate(STAGES):
-            signal = MICRO * result[f"{stage}.modal.theta[{row + 1}]"]
-            natural = TORSIONAL_FREQUENCIES[stage][row]
-            draw_time(upper[column], signal, 5 / MESHING, COLOUR[stage], f"Stage {column + 1}, {natural} Hz")
-            draw_spectrum(lower[column], signal, 2000, COLOUR[stage], (VIBRATION, MESHING), (natural,))
-        upper[0].set_ylabel(f"about mean, {TORSIONAL_UNIT}")
-        lower[0].set(ylim=(1e-4, 2e4), ylabel=f"amplitude, {TORSIONAL_UNIT}")
-    save(figure, path)
+def plot_torsional_mode(result: Result, mode: int, path: Path) -> None:
+    """Figures 15 and 16: rows are stages, time and spectrum."""
+    figure, axes = plt.subplots(3, 2, figsize=(13, 10), sharex="col", sharey="col", width_ratios=(1, 1.5),
+                                layout="constrained")
+    for (left, right), stage in zip(axes, STAGES):
+        name, natural = f"{stage}.modal.theta[{mode}]", TORSIONAL[stage][mode - 1]
+        start, settled = MICRO * result.start[name], MICRO * result.settled[name]
+        draw_time(left, settled, 5 / MESHING, COLOUR[stage], TORSIONAL_UNIT, f"Stage {ROMAN[stage]}")
+        draw_spectrum(right, start, settled, 2000, COLOUR[stage], (ROTATION, VIBRATION, MESHING), (natural,))
+        left.set_ylabel(f"At{mode} about mean, {TORSIONAL_UNIT}")
+        right.set(ylim=(1e-4, 2e4), ylabel=f"amplitude, {TORSIONAL_UNIT}")
+    axes[0, 1].legend(loc="upper center", framealpha=1.0)
+    order = ("First", "Second")[mode - 1]
+    title = f"Figure {mode + 14}: {order} torsional modal coordinates in case 4 (dashed: their natural frequencies)"
+    save(figure, title, path)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Run the four cases of the paper and draw its figures 5 to 16.")
+    parser = argparse.ArgumentParser(description="Reproduce Table I and figures 3 to 16 of the paper.")
     parser.add_argument("fmu", type=Path, help="the FMU packed from three_stage.toml")
-    parser.add_argument("output", type=Path, help="folder for CSV files and pictures, made if missing")
+    parser.add_argument("inspection", type=Path, help="what `cargo xtask inspect --format json` says of it")
+    parser.add_argument("output", type=Path, help="folder for tables and pictures, made if missing")
     arguments = parser.parse_args()
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    results = [simulate(arguments.fmu, case) for case in CASES]
-    for number, result in enumerate(results, start=1):
-        path = arguments.output / f"case_{number}.csv"
-        np.savetxt(path, result, fmt="%.9g", delimiter=",", header=",".join(result.dtype.names), comments="")
-        print(f"written: {path}")
-    plt.rcParams.update({"font.size": 9, "figure.titlesize": 14, "axes.grid": True, "grid.alpha": 0.25})
-    plot_orbits(results, arguments.output / "figures_05_07_orbits.png")
-    plot_lateral_mode(results, 1, 8, arguments.output / "figures_08_10_first_lateral_mode.png")
-    plot_lateral_mode(results, 2, 11, arguments.output / "figures_11_13_second_lateral_mode.png")
-    plot_mesh_forces(results[-1], arguments.output / "figure_14_mesh_forces.png")
-    plot_torsional_modes(results[-1], arguments.output / "figures_15_16_torsional_modes.png")
-    print_table(results[-1])
-    print(f"\nCSV files and pictures are in {arguments.output.resolve()}")
+    output = arguments.output
+    output.mkdir(parents=True, exist_ok=True)
+    plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "figure.titlesize": 13})
+    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.25})
+
+    rotors = json.loads(arguments.inspection.read_text(encoding="utf-8"))["rotors"]
+    for mode in (1, 2):
+        plot_mode_shapes(rotors, mode, output / f"figure_0{mode + 2}_mode_shapes.png")
+
+    results = []
+    for number, case in enumerate(CASES, start=1):
+        print(f"simulating {case.title} ...", flush=True)
+        results.append(simulate(arguments.fmu, case))
+        settled = results[-1].settled
+        np.savetxt(output / f"case_{number}.csv", settled, fmt="%.9g", delimiter=",",
+                   header=",".join(settled.dtype.names), comments="")
+
+    for index, stage in enumerate(STAGES):
+        plot_orbits(results, stage, 5 + index, output / f"figure_{5 + index:02}_orbits.png")
+        for mode in (1, 2):
+            number = 5 + 3 * mode + index
+            plot_lateral_mode(results, stage, mode, number, output / f"figure_{number:02}_lateral_mode_{mode}.png")
+    plot_mesh_forces(results[-1], output / "figure_14_mesh_forces.png")
+    for mode in (1, 2):
+        plot_torsional_mode(results[-1], mode, output / f"figure_{14 + mode}_torsional_mode_{mode}.png")
+    table_1(rotors, output / "table_1.csv")
+    print_lines(results[-1].settled)
+    print(f"\nTables and pictures are in {output.resolve()}")
 
 
 if __name__ == "__main__":

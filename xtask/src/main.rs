@@ -23,8 +23,8 @@ cargo xtask <command>
   inspect MODEL.toml [--format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
                                   what a model file describes: frequencies, critical speeds, whether the
                                   modes kept are enough, communication step
-  demo                            pack examples/three_stage.toml, run the paper's four cases through
-                                  FMPy, write CSV files and pictures to target/demo
+  demo                            pack examples/three_stage.toml, run the paper's four cases through FMPy, write
+                                  Table I, figures 3 to 16 of the paper and CSV files to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
   fuzz [--seconds N] [--seed S]   random calls, states and model files for N seconds (60); a failure names its seed
   bench [solvers|masters|start|chains|accuracy]... [--record]

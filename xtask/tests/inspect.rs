@@ -42,6 +42,15 @@ fn json_has_the_promised_names_and_the_numbers_of_the_library_to_the_bit() {
         assert!(lateral.eq(expected.iter().copied().map(Some)));
         let torsional = &rotor["torsional_frequencies"];
         assert_eq!(list(torsional).len(), 2, "elastic ones only");
+        let shapes = &rotor["mode_shapes"];
+        let stations = list(&shapes["positions"]).len();
+        for (kind, frequencies) in [("lateral", 3), ("torsional", 2)] {
+            let shapes = list(&shapes[kind]);
+            assert_eq!(shapes.len(), frequencies);
+            assert!(shapes.iter().all(|shape| list(shape).len() == stations));
+        }
+        let gear = loaded.train.rotors[index].gears[0].body.position;
+        assert_eq!(rotor["gears"][0]["position"], gear);
     }
     for (index, mesh) in list(&report["meshes"]).iter().enumerate() {
         assert_eq!(mesh["name"], loaded.train.meshes[index].name);

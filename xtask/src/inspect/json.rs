@@ -4,6 +4,7 @@ use geartrain::analysis::{
     Answers, BandErrors, CHANNELS, Campbell, Excites, LIMIT, Place, Spot, Vibration,
 };
 use geartrain::model::Rotor;
+use geartrain::rotor::ModalRotor;
 use serde_json::{Value, json};
 
 use super::frequencies::iso_stiffness;
@@ -17,12 +18,19 @@ pub fn report(inspection: &Inspection) -> Value {
         vibrations,
         ..
     } = inspection;
-    let rotor = |(rotor, modal): (&geartrain::train::Rotor, &Rotor)| {
+    let rotor = |((rotor, modal), reduced): ((&geartrain::train::Rotor, &Rotor), &ModalRotor)| {
+        let gears = rotor.gears.iter();
+        let gears = gears.map(|gear| at(&gear.name, gear.body.position));
+        let bearings = rotor.bearings.iter();
+        let bearings = bearings.map(|bearing| at(&bearing.name, bearing.position));
         json!({
             "name": rotor.name,
             "speed": modal.speed,
+            "gears": gears.collect::<Value>(),
+            "bearings": bearings.collect::<Value>(),
             "lateral_frequencies": modal.lateral_frequencies,
             "torsional_frequencies": elastic(modal),
+            "mode_shapes": mode_shapes(reduced),
         })
     };
     let mesh = |(mesh, modal): (&geartrain::train::Mesh, &geartrain::model::Mesh)| {
@@ -57,7 +65,7 @@ pub fn report(inspection: &Inspection) -> Value {
     };
     json!({
         "name": train.name,
-        "rotors": train.rotors.iter().zip(&model.rotors).map(rotor).collect::<Value>(),
+        "rotors": train.rotors.iter().zip(&model.rotors).zip(&inspection.reduced).map(rotor).collect::<Value>(),
         "meshes": train.meshes.iter().zip(&model.meshes).map(mesh).collect::<Value>(),
         "coupled": list(&vibrations.oscillating),
         "not_oscillating": vibrations.creeping.iter().map(creeping).collect::<Value>(),
@@ -74,6 +82,30 @@ pub fn report(inspection: &Inspection) -> Value {
 pub fn elastic(rotor: &Rotor) -> Vec<f64> {
     let frequencies = rotor.torsional_frequencies.iter().copied();
     frequencies.filter(|&hertz| hertz > 0.0).collect()
+}
+
+/// Something with a name at a position.
+fn at(name: &str, position: f64) -> Value {
+    json!({ "name": name, "position": position })
+}
+
+/// The shapes in the order of the frequencies, over the positions of the stations.
+fn mode_shapes(rotor: &ModalRotor) -> Value {
+    let lateral = (0..rotor.lateral_frequencies.len()).map(|mode| {
+        let shape = rotor.lateral_shapes.column(mode);
+        // Displacement and slope of every station.
+        shape.iter().step_by(2).copied().collect::<Vec<f64>>()
+    });
+    let elastic = usize::from(rotor.has_rigid_rotation())..rotor.torsional_frequencies.len();
+    let torsional = elastic.map(|mode| {
+        let shape = rotor.torsional_shapes.column(mode);
+        shape.iter().copied().collect::<Vec<f64>>()
+    });
+    json!({
+        "positions": rotor.stations.positions(),
+        "lateral": lateral.collect::<Vec<_>>(),
+        "torsional": torsional.collect::<Vec<_>>(),
+    })
 }
 
 fn vibration(inspection: &Inspection, one: &Vibration) -> Value {

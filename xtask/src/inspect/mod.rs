@@ -16,6 +16,7 @@ use geartrain::analysis::{
     Vibrations, Whirl, campbell, range_of_interest, recommend, suggested_step, vibrations,
 };
 use geartrain::model::ModalModel;
+use geartrain::rotor::ModalRotor;
 use geartrain::train::{GearTrain, Loaded, load};
 
 use crate::{pack, shell};
@@ -26,6 +27,8 @@ use published::Published;
 struct Inspection {
     train: GearTrain,
     model: ModalModel,
+    /// Every rotor by itself, with its shapes.
+    reduced: Vec<ModalRotor>,
     vibrations: Vibrations,
     /// The table over speed, or why there is none.
     campbell: Result<Campbell, String>,
@@ -46,10 +49,7 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
     let options = Options::parse(arguments)?;
     let path = &options.model;
     pack::describe(path)?; // prints warnings
-    let loaded =
-        load(&shell::read(path)?).map_err(|problems| pack::located(path, "", &problems))?;
-    let inspection = Inspection::of(loaded, &options)
-        .map_err(|message| format!("{}: {message}", path.display()))?;
+    let inspection = Inspection::of_file(&options)?;
     match options.format {
         Format::Json => println!("{:#}", json::report(&inspection)),
         Format::Text => print_for_people(&inspection, path)?,
@@ -57,7 +57,24 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
+/// What `--format json` prints of a model file, with the table over the default speeds.
+pub fn as_json(path: &Path) -> Result<String, String> {
+    let word = path.to_string_lossy();
+    let options = Options::parse(&[&word])?;
+    Ok(format!(
+        "{:#}",
+        json::report(&Inspection::of_file(&options)?)
+    ))
+}
+
 impl Inspection {
+    fn of_file(options: &Options) -> Result<Inspection, String> {
+        let path = &options.model;
+        let loaded =
+            load(&shell::read(path)?).map_err(|problems| pack::located(path, "", &problems))?;
+        Inspection::of(loaded, options).map_err(|message| format!("{}: {message}", path.display()))
+    }
+
     fn of(loaded: Loaded, options: &Options) -> Result<Inspection, String> {
         let Loaded { config, train, .. } = loaded;
         let model = ModalModel::assemble(&train, None).map_err(|error| error.to_string())?;
@@ -68,12 +85,17 @@ impl Inspection {
             campbell(&config, &model.counts(), &found.oscillating, &range)
                 .map_err(|error| error.to_string())
         });
+        let reduced = train.rotors.iter();
+        let reduced = reduced.map(|rotor| ModalRotor::reduce(rotor, &train.basis, None));
         let range = range_of_interest(&train, &model);
         Ok(Inspection {
             basis: BasisReport::of(&train, &model, range)?,
             step: suggested_step(&model, range),
             vibrations: found,
             campbell,
+            reduced: reduced
+                .collect::<Result<_, _>>()
+                .map_err(|error| error.to_string())?,
             train,
             model,
         })

@@ -50,7 +50,7 @@ impl Package {
         let interface = Interface::of(&config, &train, &model);
         let doubtful = contradicting_flanks(&train, &model).into_iter();
         warnings.extend(doubtful.map(|warning| Problem {
-            line: lines.find(&warning.key),
+            spot: lines.find(&warning.key),
             ..warning
         }));
         Ok(Package {
@@ -78,7 +78,7 @@ fn contradicting_flanks(train: &GearTrain, model: &ModalModel) -> Vec<Problem> {
         .map(|torque| torque.value);
     let inputs = Inputs::at_rest(torques.collect(), model.bearings().count());
     let problem = |key: String, place: String, message: String| Problem {
-        line: None,
+        spot: None,
         key,
         place,
         message,

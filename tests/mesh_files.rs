@@ -15,7 +15,7 @@ fn about_law(law: &str) -> Vec<String> {
 fn about(text: &str) -> Vec<String> {
     let problems = load(text).map(|_| ()).expect_err("the file is not valid");
     assert!(
-        problems.iter().all(|problem| problem.line.is_some()),
+        problems.iter().all(|problem| problem.spot.is_some()),
         "{problems:#?}"
     );
     problems.iter().map(ToString::to_string).collect()
@@ -67,7 +67,7 @@ fn fourier_laws_must_stay_positive_and_have_harmonics() {
         ("mean = 4e8\ncosine = [inf]", ["cosine", "finite", "inf"]),
         (
             "mean = 4e8\ncosine = [\"a\"]",
-            ["cosine", "list of numbers", "the string \"a\""],
+            ["cosine", "must be a number", "the string \"a\""],
         ),
         (
             "mean = 4e8\ncosine = 0.1",

@@ -18,8 +18,8 @@ fn problems(text: &str) -> Vec<Problem> {
 fn shown(text: &str) -> Vec<String> {
     let line = |problem: &Problem| {
         problem
-            .line
-            .map_or("?".to_string(), |line| line.to_string())
+            .spot
+            .map_or("?".to_string(), |spot| spot.line.to_string())
     };
     problems(text)
         .iter()
@@ -45,7 +45,8 @@ fn one_problem(from: &str, to: &str, words: &[&str]) {
     for word in words {
         assert!(sentence.contains(word), "`{word}` is not in: {sentence}");
     }
-    assert_eq!(found[0].line, Some(same + 1), "{sentence}");
+    let line = found[0].spot.map(|spot| spot.line);
+    assert_eq!(line, Some(same + 1), "{sentence}");
 }
 
 #[test]
@@ -147,8 +148,8 @@ fn wrong_types_name_what_was_found() {
     );
     one_problem(
         "length = 1.016",
-        "length = \"40 inch\"",
-        &["length", "not available yet", "40 inch"],
+        "length = \"40 rpm\"",
+        &["length", "40 rpm", "angular speed", "length in m"],
     );
     one_problem(
         "kind = \"gear_train\"",
@@ -242,7 +243,7 @@ fn all_problems_are_reported_together_in_the_order_of_the_file() {
     let found = problems(&text);
     let lines: Vec<_> = found
         .iter()
-        .map(|problem| problem.line.expect("every problem has a line"))
+        .map(|problem| problem.spot.expect("every problem has a line"))
         .collect();
     assert!(lines.is_sorted() && found.len() == 5, "{found:#?}");
     for (problem, word) in found

@@ -17,7 +17,7 @@ fn refused(text: &str, words: &[&str]) {
     for word in words {
         assert!(sentence.contains(word), "`{word}` is not in: {sentence}");
     }
-    assert!(problems[0].line.is_some(), "{sentence}");
+    assert!(problems[0].spot.is_some(), "{sentence}");
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn bows_need_an_offset_for_each_of_several_places() {
             ["amplitudes", "NaN"],
         ),
         (
-            "positions = [0.1, 0.5]\namplitudes = [1e-5, \"1 mm\"]",
+            "positions = [0.1, 0.5]\namplitudes = [1e-5, true]",
             ["amplitudes", "list of numbers only"],
         ),
         (

@@ -159,7 +159,7 @@ fn what_is_left_out_has_its_default() {
 fn refused(changes: &[(&str, &str)], words: &[&str]) {
     let problems = load(&changed(changes)).map(|_| ()).unwrap_err();
     assert_eq!(problems.len(), 1, "{problems:#?}");
-    assert!(problems[0].line.is_some());
+    assert!(problems[0].spot.is_some());
     let sentence = problems[0].to_string();
     for word in ["mesh \"mesh\", stiffness: "].iter().chain(words) {
         assert!(sentence.contains(word), "`{word}` is not in: {sentence}");

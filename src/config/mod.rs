@@ -8,19 +8,21 @@
 //!
 //! The binary form of a [`Config`] ([`Config::to_bytes`]) is what an FMU carries inside its library.
 //! Rules (ranges, references, consistency) belong to [`crate::train`]; this module only knows which
-//! keys exist, their types and their defaults. Keys and defaults: `docs/model-file.md`.
+//! keys exist, their types, units and defaults. Keys and defaults: `docs/model-file.md`.
 
+mod dimension;
 mod document;
 mod mesh;
 mod place;
+mod quantity;
 mod read;
 mod rotor;
+mod spot;
 mod tooth_geometry;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-pub use document::Lines;
 pub use mesh::{Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Reading, read};
@@ -28,6 +30,7 @@ pub use rotor::{
     BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
     Rotor, Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
+pub use spot::{Lines, Spot};
 pub use tooth_geometry::ToothGeometry;
 
 /// One model file.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::spot::Spot;
+
 /// A table of the model file, by key path for machines and in words for people.
 ///
 /// ```
@@ -20,8 +22,8 @@ pub struct Place {
 /// One thing that is wrong in a model file, or worth a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Line in the file, counted from one; unknown for models that do not come from a file.
-    pub line: Option<usize>,
+    /// Where in the file; unknown for models that do not come from a file.
+    pub spot: Option<Spot>,
     /// Key path, such as `rotor[2].bearing[1].position`.
     pub key: String,
     /// The table in words, such as `rotor "stage2", bearing "b1"`; empty at the top.
@@ -73,7 +75,7 @@ impl Place {
     /// A problem with `key` of this table. The message names key, rule and value.
     pub fn problem(&self, key: &str, message: String) -> Problem {
         Problem {
-            line: None,
+            spot: None,
             key: self.key(key),
             place: self.words.clone(),
             message,

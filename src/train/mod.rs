@@ -202,7 +202,7 @@ pub fn load(text: &str) -> Result<Loaded, Vec<Problem>> {
         return Err(problems);
     };
     let located = |mut problem: Problem| {
-        problem.line = lines.find(&problem.key);
+        problem.spot = lines.find(&problem.key);
         problem
     };
     match validate(&config) {
@@ -225,7 +225,7 @@ pub fn load(text: &str) -> Result<Loaded, Vec<Problem>> {
                     .any(|key| problem.key == *key || starts_below(&problem.key, key))
             });
             problems.extend(news.map(located));
-            problems.sort_by_key(|problem| problem.line);
+            problems.sort_by_key(|problem| problem.spot);
             Err(problems)
         }
     }

@@ -40,6 +40,13 @@ def test_the_documents_a_person_looks_for_are_inside(three_stage):
         assert f"<td>{variable.name}</td>" in page, variable.name
 
 
+def test_the_reader_of_model_files_stays_out_of_the_library(three_stage):
+    with zipfile.ZipFile(three_stage) as archive:
+        library = archive.read("binaries/linux64/three_stage.so")
+    for words in [b"unknown key; known here", b"the parentheses do not match", b"exchange rates are not available", b"not valid TOML"]:
+        assert words not in library
+
+
 def test_committed_model_description_is_up_to_date(three_stage):
     with zipfile.ZipFile(three_stage) as archive:
         inside = archive.read("modelDescription.xml").decode()

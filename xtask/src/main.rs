@@ -8,6 +8,7 @@ mod fuzz;
 mod golden;
 mod importers;
 mod inspect;
+mod new;
 mod pack;
 mod python;
 mod shell;
@@ -19,6 +20,7 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask <command>
 
+  new NAME                        write NAME.toml, a commented two-shaft reducer to start from
   fmu MODEL.toml... [--out DIR]   pack FMUs (default folder: target/fmu)
   inspect MODEL.toml [--format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
                                   what a model file describes: frequencies, critical speeds, whether the
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
         ["fmu", rest @ ..] => pack::command(rest),
+        ["new", rest @ ..] => new::command(rest),
         ["inspect", rest @ ..] => inspect::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fmu_build::{Binary, Fmu, Platform, build_native_library};
+use geartrain::config::Problem;
 use geartrain::package::{Package, PackageError};
 
 use crate::{shell, workspace};
@@ -89,23 +90,28 @@ pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
 
 /// Reads and checks a model file; warnings are printed, problems are the error.
 pub fn describe(path: &Path) -> Result<Package, String> {
-    let package = Package::of(&shell::read(path)?).map_err(|error| match error {
-        PackageError::Invalid(problems) => located(path, "", &problems),
+    let text = shell::read(path)?;
+    let package = Package::of(&text).map_err(|error| match error {
+        PackageError::Invalid(problems) => located(path, &text, "", &problems),
         PackageError::Irreducible(error) => format!("{}: {error}", path.display()),
     })?;
     if !package.warnings.is_empty() {
-        eprintln!("{}", located(path, "warning: ", &package.warnings));
+        eprintln!("{}", located(path, &text, "warning: ", &package.warnings));
     }
     Ok(package)
 }
 
-/// One line per problem: `file:line: place: message`, with `kind` before the place.
-pub fn located(path: &Path, kind: &str, problems: &[geartrain::config::Problem]) -> String {
-    let line = |problem: &geartrain::config::Problem| match problem.line {
-        Some(line) => format!("{}:{line}: {kind}{problem}", path.display()),
-        None => format!("{}: {kind}{problem}", path.display()),
+/// Every problem as `file:line: place: message`, with `kind` before the place, and its line of the file below it.
+pub fn located(path: &Path, text: &str, kind: &str, problems: &[Problem]) -> String {
+    let file = path.display();
+    let shown = |problem: &Problem| match problem.spot {
+        Some(spot) => {
+            let line = spot.line;
+            format!("{file}:{line}: {kind}{problem}\n{}", spot.excerpt(text))
+        }
+        None => format!("{file}: {kind}{problem}"),
     };
-    problems.iter().map(line).collect::<Vec<_>>().join("\n")
+    problems.iter().map(shown).collect::<Vec<_>>().join("\n")
 }
 
 fn documents(package: &Package, source: &str) -> Result<Vec<(String, Vec<u8>)>, String> {

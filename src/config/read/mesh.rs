@@ -1,5 +1,6 @@
 //! `[[mesh]]` with its stiffness law.
 
+use super::super::dimension::{ANGLE, DAMPING, LENGTH, NUMBER, PITCHES, STIFFNESS};
 use super::super::document::Table;
 use super::super::{
     Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling,
@@ -16,11 +17,11 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
     let mesh = Mesh {
         name: table.string("name"),
         gears: table.pair_of_strings("gears"),
-        center_angle: table.number("center_angle"),
-        pressure_angle: table.number("pressure_angle"),
+        center_angle: table.number("center_angle", &ANGLE),
+        pressure_angle: table.number("pressure_angle", &ANGLE),
         internal: table.boolean_or("internal", false),
         flank: flank(&table),
-        phase: table.optional_number("phase"),
+        phase: table.optional_number("phase", &PITCHES),
         damping: mesh_damping(&table),
         contact,
         backlash,
@@ -42,8 +43,8 @@ pub(super) fn mesh(table: Table<'_, '_>) -> Mesh {
 fn error_harmonic(table: Table<'_, '_>) -> ErrorHarmonic {
     let harmonic = ErrorHarmonic {
         order: table.count("order"),
-        amplitude: table.number("amplitude"),
-        phase: table.number_or("phase", 0.0),
+        amplitude: table.number("amplitude", &LENGTH),
+        phase: table.number_or("phase", &ANGLE, 0.0),
     };
     table.finish();
     harmonic
@@ -55,7 +56,7 @@ fn contact(table: &Table<'_, '_>) -> (Contact, f64) {
         ("unilateral", Contact::Unilateral),
     ];
     let contact = table.choice("contact", Some(Contact::Bilateral), &contacts);
-    let backlash = table.number_or("backlash", 0.0);
+    let backlash = table.number_or("backlash", &LENGTH, 0.0);
     if contact == Some(Contact::Bilateral) && backlash != 0.0 {
         let message = format!(
             "must be 0 with bilateral contact, found {backlash}; backlash needs contact = \"unilateral\""
@@ -66,7 +67,7 @@ fn contact(table: &Table<'_, '_>) -> (Contact, f64) {
 }
 
 fn flank(table: &Table<'_, '_>) -> Flank {
-    match table.number_or("flank", 1.0) {
+    match table.number_or("flank", &NUMBER, 1.0) {
         1.0 => Flank::Positive,
         -1.0 => Flank::Negative,
         other => {
@@ -80,8 +81,8 @@ fn flank(table: &Table<'_, '_>) -> Flank {
 
 fn mesh_damping(table: &Table<'_, '_>) -> MeshDamping {
     match (
-        table.optional_number("damping_ratio"),
-        table.optional_number("damping"),
+        table.optional_number("damping_ratio", &NUMBER),
+        table.optional_number("damping", &DAMPING),
     ) {
         (Some(_), Some(_)) => {
             let message = "contradicts damping_ratio; give one or the other";
@@ -105,15 +106,15 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
     type ReadLaw = fn(&Table<'_, '_>) -> MeshStiffness;
     let laws: [(&str, ReadLaw); 6] = [
         ("constant", |table| MeshStiffness::Constant {
-            mean: table.number("mean"),
+            mean: table.number("mean", &STIFFNESS),
         }),
         ("rectangular", rectangular),
         ("tooth_pair", tooth_pair),
         ("tooth_geometry", tooth_geometry),
         ("fourier", fourier),
         ("table", |table| MeshStiffness::Table {
-            phase: table.numbers("phase"),
-            value: table.numbers("value"),
+            phase: table.numbers("phase", &PITCHES),
+            value: table.numbers("value", &STIFFNESS),
         }),
     ];
     // Without a law nobody can say which keys are known: the table is not finished.
@@ -126,10 +127,10 @@ fn mesh_stiffness(mesh: &Table<'_, '_>) -> MeshStiffness {
 }
 
 fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
-    let contact_ratio = table.number("contact_ratio");
-    let pair = table.optional_number("pair");
-    let single = table.optional_number("single");
-    let double = table.optional_number("double");
+    let contact_ratio = table.number("contact_ratio", &NUMBER);
+    let pair = table.optional_number("pair", &STIFFNESS);
+    let single = table.optional_number("single", &STIFFNESS);
+    let double = table.optional_number("double", &STIFFNESS);
     match (pair, single, double) {
         (Some(pair), None, None) => MeshStiffness::Rectangular {
             fewer_pairs: contact_ratio.floor() * pair,
@@ -157,22 +158,22 @@ fn rectangular(table: &Table<'_, '_>) -> MeshStiffness {
 
 fn tooth_pair(table: &Table<'_, '_>) -> MeshStiffness {
     MeshStiffness::ToothPair {
-        pair: table.number("pair"),
-        quadratic: table.number_or("quadratic", 0.0),
-        quartic: table.number_or("quartic", 0.0),
-        ramp: table.number_or("ramp", 0.0),
-        contact_ratio: table.number("contact_ratio"),
+        pair: table.number("pair", &STIFFNESS),
+        quadratic: table.number_or("quadratic", &NUMBER, 0.0),
+        quartic: table.number_or("quartic", &NUMBER, 0.0),
+        ramp: table.number_or("ramp", &PITCHES, 0.0),
+        contact_ratio: table.number("contact_ratio", &NUMBER),
     }
 }
 
 fn fourier(table: &Table<'_, '_>) -> MeshStiffness {
-    let cosine = table.optional_numbers("cosine");
-    let sine = table.optional_numbers("sine");
+    let cosine = table.optional_numbers("cosine", &NUMBER);
+    let sine = table.optional_numbers("sine", &NUMBER);
     if cosine.is_none() && sine.is_none() {
         table.problem("cosine", "missing; give cosine, sine, or both");
     }
     MeshStiffness::Fourier {
-        mean: table.number("mean"),
+        mean: table.number("mean", &STIFFNESS),
         cosine: cosine.unwrap_or_default(),
         sine: sine.unwrap_or_default(),
     }

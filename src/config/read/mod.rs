@@ -4,7 +4,9 @@ mod mesh;
 mod rotor;
 mod tooth_geometry;
 
-use super::document::{Document, Lines, Table};
+use super::dimension::{ANGLE, DENSITY, FREQUENCY, LENGTH, NUMBER, PRESSURE, TIME};
+use super::document::{Document, Table};
+use super::spot::Lines;
 use super::{
     Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, SolverChoice,
     SpeedMode, Start,
@@ -100,9 +102,9 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
         start: table
             .choice("start", Some(defaults.start), &starts)
             .unwrap_or(defaults.start),
-        tolerance: table.number_or("tolerance", defaults.tolerance),
-        stop_time: table.number_or("stop_time", defaults.stop_time),
-        step_size: table.number_or("step_size", defaults.step_size),
+        tolerance: table.number_or("tolerance", &NUMBER, defaults.tolerance),
+        stop_time: table.number_or("stop_time", &TIME, defaults.stop_time),
+        step_size: table.number_or("step_size", &TIME, defaults.step_size),
     };
     table.finish();
     simulation
@@ -111,7 +113,7 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
 fn basis(table: &Table<'_, '_>) -> Basis {
     let static_shapes = table.boolean_or("static_shapes", false);
     let counts = ["lateral_modes", "torsional_modes"];
-    let modes = if let Some(frequency) = table.optional_number("max_frequency") {
+    let modes = if let Some(frequency) = table.optional_number("max_frequency", &FREQUENCY) {
         for key in counts {
             if table.has(key) {
                 table.problem(key, "contradicts max_frequency; give one or the other");
@@ -134,9 +136,9 @@ fn basis(table: &Table<'_, '_>) -> Basis {
 
 fn material((name, table): (String, Table<'_, '_>)) -> (String, Material) {
     let material = Material {
-        youngs_modulus: table.number("youngs_modulus"),
-        poisson_ratio: table.number("poisson_ratio"),
-        density: table.number("density"),
+        youngs_modulus: table.number("youngs_modulus", &PRESSURE),
+        poisson_ratio: table.number("poisson_ratio", &NUMBER),
+        density: table.number("density", &DENSITY),
     };
     table.finish();
     (name, material)
@@ -152,10 +154,10 @@ fn gearbox_vibration(table: Option<Table<'_, '_>>) -> GearboxVibration {
         };
     };
     let vibration = GearboxVibration {
-        amplitude_x: table.number_or("amplitude_x", 0.0),
-        amplitude_y: table.number_or("amplitude_y", 0.0),
-        phase_y: table.number_or("phase_y", 0.0),
-        frequency: table.number("frequency"),
+        amplitude_x: table.number_or("amplitude_x", &LENGTH, 0.0),
+        amplitude_y: table.number_or("amplitude_y", &LENGTH, 0.0),
+        phase_y: table.number_or("phase_y", &ANGLE, 0.0),
+        frequency: table.number("frequency", &FREQUENCY),
     };
     table.finish();
     vibration

@@ -1,5 +1,9 @@
 //! `[[rotor]]` with everything on it.
 
+use super::super::dimension::{
+    ANGLE, ANGULAR_SPEED, CUBIC_STIFFNESS, DAMPING, Dimension, INERTIA, LENGTH, MASS, NUMBER,
+    STIFFNESS, TORQUE, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS, UNBALANCE, force_per_power,
+};
 use super::super::document::Table;
 use super::super::{
     BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
@@ -11,14 +15,14 @@ pub(super) fn rotor(table: Table<'_, '_>, free: bool) -> Rotor {
     let rotor = Rotor {
         name: table.string("name"),
         speed: if free {
-            table.number_or("speed", 0.0)
+            table.number_or("speed", &ANGULAR_SPEED, 0.0)
         } else {
-            table.number("speed")
+            table.number("speed", &ANGULAR_SPEED)
         },
-        angle: table.number_or("angle", 0.0),
-        max_element_length: table.optional_number("max_element_length"),
-        lateral_damping_ratio: table.number_or("lateral_damping_ratio", 0.0),
-        torsional_damping_ratio: table.number_or("torsional_damping_ratio", 0.0),
+        angle: table.number_or("angle", &ANGLE, 0.0),
+        max_element_length: table.optional_number("max_element_length", &LENGTH),
+        lateral_damping_ratio: table.number_or("lateral_damping_ratio", &NUMBER, 0.0),
+        torsional_damping_ratio: table.number_or("torsional_damping_ratio", &NUMBER, 0.0),
         segments: each(&table, "segment", segment),
         disks: each(&table, "disk", disk),
         gears: each(&table, "gear", gear),
@@ -45,9 +49,9 @@ fn each<T>(table: &Table<'_, '_>, key: &'static str, item: fn(&Table<'_, '_>) ->
 
 fn segment(table: &Table<'_, '_>) -> Segment {
     Segment {
-        length: table.number("length"),
-        outer_diameter: table.number("outer_diameter"),
-        inner_diameter: table.number_or("inner_diameter", 0.0),
+        length: table.number("length", &LENGTH),
+        outer_diameter: table.number("outer_diameter", &LENGTH),
+        inner_diameter: table.number_or("inner_diameter", &LENGTH, 0.0),
         material: table
             .optional_string("material")
             .unwrap_or_else(|| "default".to_string()),
@@ -56,10 +60,10 @@ fn segment(table: &Table<'_, '_>) -> Segment {
 
 fn disk(table: &Table<'_, '_>) -> Disk {
     Disk {
-        position: table.number("position"),
-        mass: table.number("mass"),
-        polar_inertia: table.number("polar_inertia"),
-        diametral_inertia: table.number("diametral_inertia"),
+        position: table.number("position", &LENGTH),
+        mass: table.number("mass", &MASS),
+        polar_inertia: table.number("polar_inertia", &INERTIA),
+        diametral_inertia: table.number("diametral_inertia", &INERTIA),
     }
 }
 
@@ -74,9 +78,9 @@ fn gear(table: &Table<'_, '_>) -> Gear {
 }
 
 fn base_circle(table: &Table<'_, '_>) -> BaseCircle {
-    let radius = table.optional_number("base_radius");
-    let module = table.optional_number("module");
-    let pressure_angle = table.optional_number("pressure_angle");
+    let radius = table.optional_number("base_radius", &LENGTH);
+    let module = table.optional_number("module", &LENGTH);
+    let pressure_angle = table.optional_number("pressure_angle", &ANGLE);
     match (radius, module, pressure_angle) {
         (Some(radius), None, None) => BaseCircle::Radius(radius),
         (None, Some(module), Some(pressure_angle)) => BaseCircle::Rack {
@@ -109,9 +113,9 @@ fn bearing(table: &Table<'_, '_>) -> Bearing {
     }
     Bearing {
         name: table.string("name"),
-        position: table.number("position"),
-        stiffness: planar(table, "stiffness"),
-        damping: planar(table, "damping"),
+        position: table.number("position", &LENGTH),
+        stiffness: planar(table, "stiffness", &STIFFNESS),
+        damping: planar(table, "damping", &DAMPING),
         at_speed,
         nonlinear: table.table("nonlinear").map(radial_force),
     }
@@ -141,9 +145,9 @@ fn speed_point(table: &Table<'_, '_>) -> SpeedPoint {
         table.problem("stiffness", "missing");
     }
     SpeedPoint {
-        speed: table.number("speed"),
-        stiffness: planar(table, "stiffness"),
-        damping: planar(table, "damping"),
+        speed: table.number("speed", &ANGULAR_SPEED),
+        stiffness: planar(table, "stiffness", &STIFFNESS),
+        damping: planar(table, "damping", &DAMPING),
     }
 }
 
@@ -151,20 +155,16 @@ fn radial_force(table: Table<'_, '_>) -> RadialForce {
     type ReadLaw = fn(&Table<'_, '_>) -> RadialForce;
     let laws: [(&str, ReadLaw); 3] = [
         ("clearance", |table| RadialForce {
-            clearance: table.number("clearance"),
-            coefficient: table.number("stiffness"),
+            clearance: table.number("clearance", &LENGTH),
+            coefficient: table.number("stiffness", &STIFFNESS),
             exponent: 1.0,
         }),
         ("cubic", |table| RadialForce {
-            clearance: table.number_or("clearance", 0.0),
-            coefficient: table.number("coefficient"),
+            clearance: table.number_or("clearance", &LENGTH, 0.0),
+            coefficient: table.number("coefficient", &CUBIC_STIFFNESS),
             exponent: 3.0,
         }),
-        ("hertz", |table| RadialForce {
-            clearance: table.number_or("clearance", 0.0),
-            coefficient: table.number("coefficient"),
-            exponent: table.number_or("exponent", 1.5),
-        }),
+        ("hertz", hertz),
     ];
     // Without a law nobody can say which keys are known: the table is not finished.
     let Some(read_law) = table.choice("law", None, &laws) else {
@@ -175,8 +175,24 @@ fn radial_force(table: Table<'_, '_>) -> RadialForce {
     force
 }
 
+fn hertz(table: &Table<'_, '_>) -> RadialForce {
+    let exponent = table.number_or("exponent", &NUMBER, 1.5);
+    let written = table.as_written("exponent").unwrap_or("1.5");
+    // The unit of a coefficient whose exponent is wrong is not known.
+    let coefficient = if exponent.is_finite() || !table.has("coefficient") {
+        table.number("coefficient", &force_per_power(written))
+    } else {
+        f64::NAN
+    };
+    RadialForce {
+        clearance: table.number_or("clearance", &LENGTH, 0.0),
+        coefficient,
+        exponent,
+    }
+}
+
 /// yy defaults to xx, cross terms to zero, an absent table to nothing.
-fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
+fn planar(bearing: &Table<'_, '_>, key: &'static str, kind: &Dimension) -> Planar {
     let Some(table) = bearing.table(key) else {
         return Planar {
             xx: 0.0,
@@ -185,12 +201,12 @@ fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
             yy: 0.0,
         };
     };
-    let xx = table.number("xx");
+    let xx = table.number("xx", kind);
     let planar = Planar {
         xx,
-        xy: table.number_or("xy", 0.0),
-        yx: table.number_or("yx", 0.0),
-        yy: table.number_or("yy", xx),
+        xy: table.number_or("xy", kind, 0.0),
+        yx: table.number_or("yx", kind, 0.0),
+        yy: table.number_or("yy", kind, xx),
     };
     table.finish();
     planar
@@ -199,40 +215,40 @@ fn planar(bearing: &Table<'_, '_>, key: &'static str) -> Planar {
 fn unbalance(table: &Table<'_, '_>) -> Unbalance {
     Unbalance {
         name: table.string("name"),
-        position: table.number("position"),
-        moment: table.number("moment"),
-        phase: table.number_or("phase", 0.0),
+        position: table.number("position", &LENGTH),
+        moment: table.number("moment", &UNBALANCE),
+        phase: table.number_or("phase", &ANGLE, 0.0),
     }
 }
 
 fn bow(table: &Table<'_, '_>) -> Bow {
     Bow {
-        positions: table.numbers("positions"),
-        amplitudes: table.numbers("amplitudes"),
-        phase: table.number_or("phase", 0.0),
+        positions: table.numbers("positions", &LENGTH),
+        amplitudes: table.numbers("amplitudes", &LENGTH),
+        phase: table.number_or("phase", &ANGLE, 0.0),
     }
 }
 
 fn torque(table: &Table<'_, '_>) -> Torque {
     Torque {
         name: table.string("name"),
-        position: table.number("position"),
-        value: table.number_or("value", 0.0),
-        slope: table.number_or("slope", 0.0),
+        position: table.number("position", &LENGTH),
+        value: table.number_or("value", &TORQUE, 0.0),
+        slope: table.number_or("slope", &TORSIONAL_DAMPING, 0.0),
     }
 }
 
 fn basis_support(table: &Table<'_, '_>) -> BasisSupport {
     BasisSupport {
-        position: table.number("position"),
-        lateral: table.number_or("lateral", 0.0),
-        torsional: table.number_or("torsional", 0.0),
+        position: table.number("position", &LENGTH),
+        lateral: table.number_or("lateral", &STIFFNESS, 0.0),
+        torsional: table.number_or("torsional", &TORSIONAL_STIFFNESS, 0.0),
     }
 }
 
 fn probe(table: &Table<'_, '_>) -> Probe {
     Probe {
         name: table.string("name"),
-        position: table.number("position"),
+        position: table.number("position", &LENGTH),
     }
 }

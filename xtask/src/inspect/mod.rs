@@ -70,8 +70,8 @@ pub fn as_json(path: &Path) -> Result<String, String> {
 impl Inspection {
     fn of_file(options: &Options) -> Result<Inspection, String> {
         let path = &options.model;
-        let loaded =
-            load(&shell::read(path)?).map_err(|problems| pack::located(path, "", &problems))?;
+        let text = shell::read(path)?;
+        let loaded = load(&text).map_err(|problems| pack::located(path, &text, "", &problems))?;
         Inspection::of(loaded, options).map_err(|message| format!("{}: {message}", path.display()))
     }
 

@@ -4,36 +4,20 @@
 //! [`Problem`] and a placeholder, so that one run finds all problems; [`Table::finish`] reports the keys
 //! nobody asked for. Knows TOML and types; knows no gears.
 
+mod numbers;
+
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::place::{Place, Problem};
-
-/// The line of every key and table in a file, by key path.
-#[derive(Debug, Clone, Default)]
-pub struct Lines(BTreeMap<String, usize>);
-
-impl Lines {
-    /// The line of a key path, or of the nearest table around it that the file contains.
-    pub fn find(&self, key: &str) -> Option<usize> {
-        let mut path = key;
-        loop {
-            if let Some(&line) = self.0.get(path) {
-                return Some(line);
-            }
-            path = &path[..path.rfind('.')?];
-        }
-    }
-}
+use super::spot::{Lines, Text};
 
 /// A parsed file, with the problems found so far.
 pub(super) struct Document<'t> {
-    text: &'t str,
-    /// Offset of the first letter of every line.
-    line_starts: Vec<usize>,
+    text: Text<'t>,
     problems: RefCell<Vec<Problem>>,
     lines: RefCell<Lines>,
 }
@@ -48,10 +32,8 @@ pub(super) struct Table<'d, 't> {
 
 impl<'t> Document<'t> {
     pub(super) fn new(text: &'t str) -> Document<'t> {
-        let ends = text.match_indices('\n').map(|(offset, _)| offset + 1);
         Document {
-            text,
-            line_starts: std::iter::once(0).chain(ends).collect(),
+            text: Text::new(text),
             problems: RefCell::default(),
             lines: RefCell::default(),
         }
@@ -59,16 +41,16 @@ impl<'t> Document<'t> {
 
     /// The top table, to be kept by the caller; `None` after syntax errors, which become problems.
     pub(super) fn parse(&self) -> Option<Spanned<DeTable<'t>>> {
-        let (table, errors) = DeTable::parse_recoverable(self.text);
+        let (table, errors) = DeTable::parse_recoverable(self.text.text);
         if errors.is_empty() {
             return Some(table);
         }
         for error in errors {
-            let line = error.span().map(|span| self.line(span.start));
+            let spot = error.span().map(|span| self.text.spot(span));
             let message = format!("not valid TOML: {}", error.message().replace('\n', ", "));
             let (key, place) = (String::new(), String::new());
             self.problems.borrow_mut().push(Problem {
-                line,
+                spot,
                 key,
                 place,
                 message,
@@ -89,68 +71,12 @@ impl<'t> Document<'t> {
     pub(super) fn into_findings(self) -> (Vec<Problem>, Lines) {
         (self.problems.into_inner(), self.lines.into_inner())
     }
-
-    /// The line of an offset, counted from one.
-    fn line(&self, offset: usize) -> usize {
-        self.line_starts.partition_point(|&start| start <= offset)
-    }
 }
 
 impl<'d, 't> Table<'d, 't> {
     /// Whether the key is present; marks it as known.
     pub(super) fn has(&self, key: &'static str) -> bool {
         self.value(key).is_some()
-    }
-
-    /// A number that must be present; NaN stands in when it is not.
-    pub(super) fn number(&self, key: &'static str) -> f64 {
-        self.optional_number(key)
-            .unwrap_or_else(|| self.missing(key, f64::NAN))
-    }
-
-    pub(super) fn number_or(&self, key: &'static str, default: f64) -> f64 {
-        self.optional_number(key).unwrap_or(default)
-    }
-
-    /// A number that may be absent; NaN stands in for a value of another type.
-    pub(super) fn optional_number(&self, key: &'static str) -> Option<f64> {
-        let value = self.value(key)?;
-        let rule = match value {
-            DeValue::String(_) => {
-                "must be a plain number in SI units (strings with units are not available yet)"
-            }
-            _ => "must be a number",
-        };
-        Some(number(value).unwrap_or_else(|| self.wrong_type(key, rule, value, f64::NAN)))
-    }
-
-    /// A list of numbers that must be present; it is empty when it is not one.
-    pub(super) fn numbers(&self, key: &'static str) -> Vec<f64> {
-        self.optional_numbers(key)
-            .unwrap_or_else(|| self.missing(key, Vec::new()))
-    }
-
-    /// A list of numbers that may be absent.
-    pub(super) fn optional_numbers(&self, key: &'static str) -> Option<Vec<f64>> {
-        let value = self.value(key)?;
-        let Some(array) = value.as_array() else {
-            return self.wrong_type(key, "must be a list of numbers", value, Some(Vec::new()));
-        };
-        let one = |item: &Spanned<DeValue<'_>>| {
-            let rule = "must be a list of numbers only";
-            number(item.get_ref())
-                .unwrap_or_else(|| self.wrong_type(key, rule, item.get_ref(), f64::NAN))
-        };
-        Some(array.iter().map(one).collect())
-    }
-
-    /// A whole number >= 0 that must be present; 0 stands in when it is not.
-    pub(super) fn count(&self, key: &'static str) -> usize {
-        let Some(value) = self.value(key) else {
-            return self.missing(key, 0);
-        };
-        let count = integer(value).and_then(|whole| usize::try_from(whole).ok());
-        count.unwrap_or_else(|| self.wrong_type(key, "must be a whole number, 0 or more", value, 0))
     }
 
     /// A string that must be present.
@@ -245,7 +171,7 @@ impl<'d, 't> Table<'d, 't> {
         let mut tables = Vec::new();
         for (name, value) in entries {
             let place = self.place.table(&format!("{key}.{}", name.get_ref()));
-            self.note_line(&place.key(""), name.span().start);
+            self.note(&place.key(""), name.span());
             match value.get_ref() {
                 DeValue::Table(inner) => {
                     tables.push((name.get_ref().to_string(), self.inner(inner, place)));
@@ -268,7 +194,7 @@ impl<'d, 't> Table<'d, 't> {
         let items: Option<Vec<_>> = value.as_array().and_then(|array| {
             array
                 .iter()
-                .map(|item| Some((item.span().start, item.get_ref().as_table()?)))
+                .map(|item| Some((item.span(), item.get_ref().as_table()?)))
                 .collect()
         });
         let Some(items) = items else {
@@ -279,10 +205,10 @@ impl<'d, 't> Table<'d, 't> {
             return self.wrong_type(key, &rule, value, Vec::new());
         };
         let mut tables = Vec::with_capacity(items.len());
-        for (index, (offset, entries)) in items.into_iter().enumerate() {
+        for (index, (span, entries)) in items.into_iter().enumerate() {
             let name = entries.get("name").and_then(|name| name.get_ref().as_str());
             let place = self.place.element(key, index, name);
-            self.note_line(&place.key(""), offset);
+            self.note(&place.key(""), span);
             tables.push(self.inner(entries, place));
         }
         tables
@@ -306,12 +232,22 @@ impl<'d, 't> Table<'d, 't> {
         );
     }
 
+    /// Reports a problem with a part of the value of `key`.
+    fn problem_at(&self, span: Range<usize>, key: &str, message: impl AsRef<str>) {
+        let message = format!("{key}: {}", message.as_ref());
+        let problem = Problem {
+            spot: Some(self.document.text.spot(span)),
+            ..self.place.problem(key, message)
+        };
+        self.document.problems.borrow_mut().push(problem);
+    }
+
     /// Reports every key that nobody asked for.
     pub(super) fn finish(self) {
         let asked = self.asked.borrow();
         for (key, _) in self.entries {
             if !asked.contains(&key.get_ref().as_ref()) {
-                self.note_line(&self.place.key(key.get_ref()), key.span().start);
+                self.note(&self.place.key(key.get_ref()), key.span());
                 let known = asked.join(", ");
                 self.problem(key.get_ref(), format!("unknown key; known here: {known}"));
             }
@@ -332,7 +268,13 @@ impl<'d, 't> Table<'d, 't> {
             self.asked.borrow_mut().push(key);
         }
         let (name, value) = self.entries.get_key_value(key)?;
-        self.note_line(&self.place.key(key), name.span().start);
+        let is_table = |value: &DeValue<'_>| matches!(value, DeValue::Table(_));
+        let tables = match value.get_ref() {
+            DeValue::Array(items) => items.iter().any(|item| is_table(item.get_ref())),
+            other => is_table(other),
+        };
+        let span = if tables { name.span() } else { value.span() };
+        self.note(&self.place.key(key), span);
         Some(value.get_ref())
     }
 
@@ -347,17 +289,17 @@ impl<'d, 't> Table<'d, 't> {
     }
 
     fn push(&self, mut problem: Problem) {
-        problem.line = self.document.lines.borrow().find(&problem.key);
+        problem.spot = self.document.lines.borrow().find(&problem.key);
         self.document.problems.borrow_mut().push(problem);
     }
 
-    fn note_line(&self, key: &str, offset: usize) {
-        let line = self.document.line(offset);
+    /// Keeps where a key path stands.
+    fn note(&self, key: &str, span: Range<usize>) {
+        let spot = self.document.text.spot(span);
         self.document
             .lines
             .borrow_mut()
-            .0
-            .insert(key.to_string(), line);
+            .insert(key.to_string(), spot);
     }
 
     /// The key path without element numbers, as TOML headers are written.
@@ -373,18 +315,6 @@ impl<'d, 't> Table<'d, 't> {
         }
         plain
     }
-}
-
-fn number(value: &DeValue<'_>) -> Option<f64> {
-    match value {
-        DeValue::Float(float) => float.as_str().parse().ok(),
-        _ => integer(value).map(|whole| whole as f64),
-    }
-}
-
-fn integer(value: &DeValue<'_>) -> Option<i64> {
-    let integer = value.as_integer()?;
-    i64::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
 fn show(value: &DeValue<'_>) -> String {

@@ -13,6 +13,7 @@ mod pack;
 mod python;
 mod shell;
 mod test;
+mod validation;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -33,6 +34,7 @@ cargo xtask <command>
                                   how fast it is: our solvers against others at the same error, a communication
                                   step through the C interface, starting an instance, growth with the number of
                                   rotors, error over tolerance; --record puts all tables into docs/performance.md
+  validation                      measure the paper's claims anew, write their tables into docs/validation.md
   golden                          regenerate modelDescription/modelDescription.xml; review its diff
 ";
 
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         ["fuzz", rest @ ..] => fuzz::command(rest),
         ["bench", parts @ ..] => bench::command(parts),
         ["golden"] => golden::command(),
+        ["validation"] => validation::command(),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             Ok(())

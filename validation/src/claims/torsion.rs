@@ -1,7 +1,10 @@
 //! Mesh forces (figure 14) and torsional modal coordinates (figures 15 and 16).
 
+use geartrain::element::Shaft;
+
 use super::{LINE, MESHING, Part, Row, Rule, TORSIONAL, VIBRATION, highest, prominence};
 use crate::family::Family;
+use crate::machine::{Shapes, Variant};
 use crate::record::Record;
 use crate::record::Signal::{At, MeshForce};
 use crate::record::Window::{Settled, Start};
@@ -59,6 +62,12 @@ pub fn mesh_forces() -> Part {
                 quantity: "1800 Hz, mesh I-III / I-II",
                 holds: Rule::Above(1.0),
                 measure: |family| force(family, 3).at(MESHING) / force(family, 2).at(MESHING),
+            },
+            Row {
+                claim: "\"because of the lower rotational stiffness in the stage III rotor\"",
+                quantity: "torsional stiffness of the shaft from gear to load, III / II",
+                holds: Rule::Below(1.0),
+                measure: |_| torsional_stiffness(3) / torsional_stiffness(2),
             },
             Row {
                 claim: "\"only a very small force component\" at the first torsional frequencies",
@@ -138,6 +147,23 @@ pub fn torsional_modes() -> Part {
              torque that is switched on does.",
         ],
     }
+}
+
+/// G I_p / L of the uniform shaft between gear and load [N m/rad].
+fn torsional_stiffness(stage: usize) -> f64 {
+    let train = Variant::of(1, Shapes::Three).train();
+    let rotor = &train.rotors[stage - 1];
+    let section = &rotor.sections[0];
+    let material = &section.material;
+    let element = Shaft {
+        length: (rotor.torques[0].position - rotor.gears[0].body.position).abs(),
+        outer_diameter: section.outer_diameter,
+        inner_diameter: section.inner_diameter,
+        youngs_modulus: material.youngs_modulus,
+        poisson_ratio: material.poisson_ratio,
+        density: material.density,
+    };
+    element.torsional_stiffness()[(0, 0)]
 }
 
 fn force(family: &Family, stage: usize) -> Spectrum {

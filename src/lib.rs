@@ -11,7 +11,7 @@
 //! | 9 | [`package`]: the parts of an FMU |
 //! | 8 | [`fmi2`]: the C ABI, the only unsafe code |
 //! | 7 | [`slave`]: FMI life cycle · [`description`]: XML and HTML |
-//! | 6 | [`interface`]: the one table of variables |
+//! | 6 | [`interface`]: the one table of variables · [`drawing`]: pictures of a train |
 //! | 5 | [`simulation`]: model + state + inputs + solver · [`analysis`]: what engineers ask before simulating |
 //! | 4 | [`model`]: the assembled modal system |
 //! | 3 | [`rotor`]: one shaft in modal coordinates |
@@ -22,6 +22,7 @@
 pub mod analysis;
 pub mod config;
 pub mod description;
+pub mod drawing;
 pub mod element;
 #[allow(unsafe_code)] // the C ABI needs pointers; every other module is safe Rust
 pub mod fmi2;

@@ -1,6 +1,7 @@
 //! The texts inside an FMU: modelDescription.xml and the documentation page, both from the one table of
 //! [`crate::interface`].
 
+pub mod html;
 mod page;
 mod xml;
 

@@ -18,7 +18,7 @@ pub(super) fn open_loops(train: &GearTrain) -> Vec<Problem> {
     let centres = centres(train);
     let mut warnings = Vec::new();
     for (index, mesh) in train.meshes.iter().enumerate() {
-        let own = offset(mesh);
+        let own = mesh.centre_offset();
         let [a, b] = mesh.gears.map(|gear| centres[gear.rotor]);
         let around = [b[0] - a[0], b[1] - a[1]];
         let gap = libm::hypot(around[0] - own[0], around[1] - own[1]);
@@ -42,19 +42,31 @@ pub(super) fn open_loops(train: &GearTrain) -> Vec<Problem> {
     warnings
 }
 
-/// c_b - c_a [m].
-fn offset(mesh: &Mesh) -> [f64; 2] {
-    let line = &mesh.line;
-    // n = cos p x (across) + sin p x (along the centre line, away from it in a ring)
-    let along = line.normal[0] * line.center_line[0] + line.normal[1] * line.center_line[1];
-    let cosine = (1.0 - along * along).max(0.0).sqrt();
-    let distance = (line.radius_a + line.radius_b).abs() / cosine;
-    line.center_line.map(|component| distance * component)
+impl Mesh {
+    /// From the centre of gear a to that of gear b, c_b - c_a [m].
+    pub fn centre_offset(&self) -> [f64; 2] {
+        let line = &self.line;
+        let distance = (line.radius_a + line.radius_b).abs() / self.cosine_of_pressure_angle();
+        line.center_line.map(|component| distance * component)
+    }
+
+    /// Operating pitch radii of gears a and b [m].
+    pub fn pitch_radii(&self) -> [f64; 2] {
+        let cosine = self.cosine_of_pressure_angle();
+        [self.line.radius_a, self.line.radius_b].map(|radius| radius.abs() / cosine)
+    }
+
+    fn cosine_of_pressure_angle(&self) -> f64 {
+        let line = &self.line;
+        // n = cos p x (across) + sin p x (along the centre line, away from it in a ring)
+        let along = line.normal[0] * line.center_line[0] + line.normal[1] * line.center_line[1];
+        (1.0 - along * along).max(0.0).sqrt()
+    }
 }
 
 /// The centre of every rotor [m] in the x-y plane, the first rotor of each connected train at the origin; the first
 /// mesh that reaches a rotor decides.
-fn centres(train: &GearTrain) -> Vec<[f64; 2]> {
+pub fn centres(train: &GearTrain) -> Vec<[f64; 2]> {
     let mut centres: Vec<Option<[f64; 2]>> = vec![None; train.rotors.len()];
     for leader in 0..centres.len() {
         if centres[leader].is_some() {
@@ -71,7 +83,7 @@ fn centres(train: &GearTrain) -> Vec<[f64; 2]> {
 
 /// The rotor that a mesh places next to one that stands already.
 fn next(mesh: &Mesh, centres: &[Option<[f64; 2]>]) -> Option<(usize, [f64; 2])> {
-    let ([a, b], [x, y]) = (mesh.gears.map(|gear| gear.rotor), offset(mesh));
+    let ([a, b], [x, y]) = (mesh.gears.map(|gear| gear.rotor), mesh.centre_offset());
     match (centres[a], centres[b]) {
         (Some(centre), None) => Some((b, [centre[0] + x, centre[1] + y])),
         (None, Some(centre)) => Some((a, [centre[0] - x, centre[1] - y])),

@@ -24,6 +24,7 @@ use crate::config::{
 use crate::mesh::{LineOfAction, StiffnessLaw, TransmissionError};
 
 pub use bearings::{Bearing, BearingLaw, CoefficientCurves, Coefficients};
+pub use centres::centres;
 pub use rotors::SAME_PLACE;
 pub use speeds::{SpeedRatio, speed_ratios};
 pub use validate::validate;

@@ -23,9 +23,10 @@ cargo xtask <command>
 
   new NAME                        write NAME.toml, a commented two-shaft reducer to start from
   fmu MODEL.toml... [--out DIR]   pack FMUs (default folder: target/fmu)
-  inspect MODEL.toml [--format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
+  inspect MODEL.toml [--html [--out DIR] | --format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
                                   what a model file describes: frequencies, critical speeds, whether the
-                                  modes kept are enough, communication step
+                                  modes kept are enough, communication step; --html: one page with pictures
+                                  (default folder: target/inspect)
   demo                            pack examples/three_stage.toml, run the paper's four cases through FMPy, write
                                   Table I, figures 3 to 16 of the paper and CSV files to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers

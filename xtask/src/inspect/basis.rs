@@ -162,7 +162,8 @@ pub fn print_step(step: &SuggestedStep) {
     }
 }
 
-fn percent(ratio: f64) -> String {
+/// A share for people.
+pub fn percent(ratio: f64) -> String {
     match 100.0 * ratio {
         large if large >= 10.0 => format!("{large:.0} %"),
         small => format!("{small:.2} %"),

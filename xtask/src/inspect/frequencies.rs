@@ -252,7 +252,8 @@ pub fn print_critical_speeds(inspection: &Inspection) {
     }
 }
 
-fn exciters(inspection: &Inspection, table: &Campbell, excitation: usize) -> String {
+/// What meets a vibration at a critical speed.
+pub fn exciters(inspection: &Inspection, table: &Campbell, excitation: usize) -> String {
     let excitation = &table.excitations[excitation];
     let rotors = excitation
         .rotors

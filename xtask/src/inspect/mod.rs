@@ -7,6 +7,7 @@ mod basis;
 mod frequencies;
 mod json;
 mod options;
+mod page;
 mod published;
 
 use std::path::Path;
@@ -15,6 +16,7 @@ use geartrain::analysis::{
     BasisErrors, Campbell, Kind, Recommendation, Reference, SuggestedStep, VibrationErrors,
     Vibrations, Whirl, campbell, range_of_interest, recommend, suggested_step, vibrations,
 };
+use geartrain::config::Config;
 use geartrain::model::ModalModel;
 use geartrain::rotor::ModalRotor;
 use geartrain::train::{GearTrain, Loaded, load};
@@ -25,6 +27,7 @@ use published::Published;
 
 /// Everything `inspect` shows.
 struct Inspection {
+    config: Config,
     train: GearTrain,
     model: ModalModel,
     /// Every rotor by itself, with its shapes.
@@ -44,7 +47,7 @@ struct BasisReport {
     recommendation: Option<Recommendation>,
 }
 
-/// Prints what the file describes, for people or as JSON.
+/// Prints what the file describes, for people or as JSON, or writes it as a page.
 pub fn command(arguments: &[&str]) -> Result<(), String> {
     let options = Options::parse(arguments)?;
     let path = &options.model;
@@ -53,6 +56,12 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
     match options.format {
         Format::Json => println!("{:#}", json::report(&inspection)),
         Format::Text => print_for_people(&inspection, path)?,
+        Format::Html => {
+            let page = page::page(&inspection, &shell::read(path)?);
+            let file = options.out.join(format!("{}.html", inspection.train.name));
+            shell::write(&file, page.as_bytes())?;
+            println!("{}", file.display());
+        }
     }
     Ok(())
 }
@@ -96,6 +105,7 @@ impl Inspection {
             reduced: reduced
                 .collect::<Result<_, _>>()
                 .map_err(|error| error.to_string())?,
+            config,
             train,
             model,
         })

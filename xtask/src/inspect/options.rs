@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use geartrain::analysis::SpeedRange;
 
+use crate::workspace;
+
 /// What to look at and how to print it.
 #[derive(Debug, PartialEq)]
 pub struct Options {
@@ -14,6 +16,8 @@ pub struct Options {
     pub format: Format,
     /// Speeds of the Campbell table.
     pub speeds: Speeds,
+    /// The folder of a page.
+    pub out: PathBuf,
 }
 
 /// Who reads the output.
@@ -23,6 +27,8 @@ pub enum Format {
     Text,
     /// Programs.
     Json,
+    /// People, as a page with pictures.
+    Html,
 }
 
 /// `--speeds FROM:TO:COUNT[:UNIT]`.
@@ -56,6 +62,7 @@ impl Options {
             count: 13,
             unit: Unit::Multiple,
         };
+        let mut out = workspace().join("target/inspect");
         let mut words = arguments.iter();
         while let Some(&word) = words.next() {
             match word {
@@ -65,6 +72,13 @@ impl Options {
                         Some(&"text") => Format::Text,
                         _ => return Err("--format needs text or json".to_string()),
                     };
+                }
+                "--html" => format = Format::Html,
+                "--out" => {
+                    out = words
+                        .next()
+                        .map(PathBuf::from)
+                        .ok_or("--out needs a folder")?;
                 }
                 "--speeds" => {
                     let given = words.next().and_then(|text| Speeds::parse(text));
@@ -82,6 +96,7 @@ impl Options {
             model,
             format,
             speeds,
+            out,
         })
     }
 }

@@ -23,6 +23,7 @@
 
 mod fourier;
 mod gauss;
+mod polynomial;
 mod stiffness;
 mod table;
 mod tooth_geometry;

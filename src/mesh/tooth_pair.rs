@@ -5,7 +5,7 @@
 //!   xi = 2 x / eps - 1,  u = clamp(min(x, eps - x) / ramp, 0, 1),  r = u^3 (10 - 15 u + 6 u^2)
 //! ```
 
-use super::gauss::integral;
+use super::polynomial::Polynomial;
 
 /// Parameters of the law `tooth_pair`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,68 +22,29 @@ pub struct ToothPair {
     pub contact_ratio: f64,
 }
 
-/// The law with what its evaluation needs again and again.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PairCurve {
-    pub(super) law: ToothPair,
-    /// 2 / eps.
-    per_contact: f64,
-    /// 1 / ramp; 0 without a ramp.
-    per_ramp: f64,
-}
-
-impl PairCurve {
-    pub(super) fn of(law: ToothPair) -> PairCurve {
-        PairCurve {
-            per_contact: 2.0 / law.contact_ratio,
-            per_ramp: if law.ramp > 0.0 { 1.0 / law.ramp } else { 0.0 },
-            law,
+impl ToothPair {
+    /// Stiffness of one pair [N/m] over the pitches since it was at x in [0, eps]: the polynomial of the piece around there.
+    pub(super) fn around(&self, x: f64) -> Polynomial {
+        let per_contact = 2.0 / self.contact_ratio;
+        let xi = Polynomial::line(x * per_contact - 1.0, per_contact);
+        let squared = xi.times(&xi);
+        let loss = Polynomial::constant(self.quadratic).plus(self.quartic, &squared);
+        let profile = Polynomial::constant(self.pair).plus(-self.pair, &squared.times(&loss));
+        let near = x.min(self.contact_ratio - x);
+        if near >= self.ramp || self.ramp == 0.0 {
+            return profile;
         }
-    }
-
-    /// Mean of the sum over the pairs: over a pitch that is the integral over one pair's contact.
-    pub(super) fn mean(&self) -> f64 {
-        let eps = self.law.contact_ratio;
-        let ramp = self.law.ramp.min(0.5 * eps);
-        [[0.0, ramp], [ramp, eps - ramp], [eps - ramp, eps]]
-            .iter()
-            // Five points are exact: one pair's stiffness is a polynomial of degree 9.
-            .map(|&[from, to]| integral(|x| self.one_pair(x), from, to))
-            .sum()
-    }
-
-    /// Stiffness of one pair [N/m] at distance x [pitches] after its first contact.
-    pub(super) fn one_pair(&self, x: f64) -> f64 {
-        let law = &self.law;
-        let xi = x * self.per_contact - 1.0;
-        let near = x.min(law.contact_ratio - x);
-        let load_share = if near >= law.ramp || law.ramp == 0.0 {
+        let towards = if x < 0.5 * self.contact_ratio {
             1.0
         } else {
-            let u = (near * self.per_ramp).max(0.0);
-            u * u * u * (10.0 - u * (15.0 - 6.0 * u))
+            -1.0
         };
-        law.pair * law.profile(xi * xi) * load_share
+        let u = Polynomial::line(near / self.ramp, towards / self.ramp);
+        let curve = Polynomial::constant(-15.0).plus(6.0, &u);
+        let share = Polynomial::constant(10.0).plus(1.0, &u.times(&curve));
+        profile.times(&u.times(&u).times(&u).times(&share))
     }
 
-    /// dk/dx [N/m per pitch]; at the end of a ramp both sides agree.
-    pub(super) fn one_pair_slope(&self, x: f64) -> f64 {
-        let (law, eps) = (&self.law, self.law.contact_ratio);
-        let (xi, xi_slope) = (x * self.per_contact - 1.0, self.per_contact);
-        let profile_slope = -2.0 * xi * xi_slope * (law.quadratic + 2.0 * xi * xi * law.quartic);
-        let near = x.min(eps - x);
-        if law.ramp == 0.0 || near >= law.ramp {
-            return law.pair * profile_slope;
-        }
-        let u = (near * self.per_ramp).max(0.0);
-        let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
-        let towards = if x <= 0.5 * eps { 1.0 } else { -1.0 };
-        let share_slope = 30.0 * u * u * (1.0 - u) * (1.0 - u) * towards * self.per_ramp;
-        law.pair * (profile_slope * share + law.profile(xi * xi) * share_slope)
-    }
-}
-
-impl ToothPair {
     /// 1 - quadratic xi^2 - quartic xi^4 over xi^2.
     fn profile(&self, xi_squared: f64) -> f64 {
         1.0 - xi_squared * (self.quadratic + xi_squared * self.quartic)

@@ -9,7 +9,7 @@
 //! In free spin unbalance and bow follow the state instead ([`super::spin`]).
 
 use super::radial::RadialBearing;
-use super::{BaseMotion, Course, ModalModel, Rotor};
+use super::{BaseMotion, Course, Mesh, ModalModel, Rotor};
 use crate::rotor::BowLoad;
 use crate::solver::{Block, Forcing, Harmonic, Instant, Line, Piece, Ramp, Spring};
 use crate::train;
@@ -141,9 +141,14 @@ impl Forcing for Excitation<'_> {
         self.model.radial.is_empty() && self.model.spins.is_empty()
     }
 
-    fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]) {
+    fn lines_into<const N: usize>(
+        &self,
+        times: [f64; N],
+        pieces: &[Piece],
+        lines: &mut [[Line; N]],
+    ) {
         for mesh in &self.model.meshes {
-            mesh.lines_into(time, pieces, lines);
+            mesh.lines_into(times, pieces, lines);
         }
     }
 
@@ -156,6 +161,10 @@ impl Forcing for Excitation<'_> {
             let base = self.base(bearing.input, at.time);
             bearing.tangents_into(at, &base, pieces, tangents);
         }
+    }
+
+    fn is_timed(&self) -> bool {
+        self.is_straight() && self.model.meshes.iter().all(Mesh::is_timed)
     }
 
     fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64 {

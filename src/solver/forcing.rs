@@ -35,10 +35,17 @@ pub trait Forcing {
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]);
     /// Whether all forces are straight lines in their own deflection and rate while their pieces last.
     fn is_straight(&self) -> bool;
-    /// These lines at a time, for every coupling.
-    fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]);
+    /// These lines at some times, for every coupling.
+    fn lines_into<const N: usize>(
+        &self,
+        times: [f64; N],
+        pieces: &[Piece],
+        lines: &mut [[Line; N]],
+    );
     /// For every coupling how its own force depends on its own deflection and rate, as far as that is fast.
     fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]);
+    /// Whether time alone ends pieces.
+    fn is_timed(&self) -> bool;
     /// Positive while the motion keeps a law in its piece; infinity where only time ends the piece.
     fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64;
     /// The piece that follows when the motion has ended one.

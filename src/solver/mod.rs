@@ -128,7 +128,8 @@ impl System {
             position,
             velocity,
             tracks: vec![track; tracks],
-            decoupled: Vec::with_capacity(2 * self.size), // so that steps allocate nothing
+            decoupled: Vec::new(),
+            is_decoupled: false,
             turning: Turning::default(),
             slow: self.slow.clone(),
             control: Control::new(self.monitors.len()),

@@ -16,8 +16,11 @@ pub struct State {
     pub velocity: Vec<f64>,
     /// The solutions of Newmark's method, from which that value comes; none for the other one.
     pub(super) tracks: Vec<Track>,
-    /// The same motion in the decoupled states of the exponential method; none before its first step.
-    pub(super) decoupled: Vec<f64>,
+    /// The same motion in the decoupled states of the exponential method.
+    pub(super) decoupled: Vec<[f64; 4]>,
+    /// Whether these say how it moves: not before the first step, nor when displacements and velocities are to be taken apart
+    /// anew.
+    pub(super) is_decoupled: bool,
     /// Where that method has turned the harmonics.
     pub(super) turning: Turning,
     /// The slow parameters that the blocks in use belong to.
@@ -37,7 +40,10 @@ impl State {
     pub fn is_like(&self, other: &State) -> bool {
         let lengths = |state: &State| {
             let tracks = state.tracks.iter();
-            let own = [state.position.len(), state.velocity.len(), state.slow.len()];
+            let own = [state.position.len(), state.velocity.len()];
+            let own = own
+                .into_iter()
+                .chain([state.decoupled.len(), state.slow.len()]);
             let control = state.control.lengths();
             tracks
                 .flat_map(|track| [track.position.len(), track.velocity.len()])
@@ -52,11 +58,9 @@ impl State {
         let numbers = tracks
             .chain(&self.position)
             .chain(&self.velocity)
-            .chain(&self.decoupled)
+            .chain(self.decoupled.as_flattened())
             .chain(&self.slow);
-        let states = [0, 2 * self.position.len()];
         lengths(self) == lengths(other)
-            && states.contains(&self.decoupled.len())
             && self.turning.is_like(&other.turning)
             && self.time.is_finite()
             && numbers.copied().all(f64::is_finite)
@@ -69,6 +73,7 @@ impl State {
         self.position.clone_from(&other.position);
         self.velocity.clone_from(&other.velocity);
         self.decoupled.clone_from(&other.decoupled);
+        self.is_decoupled = other.is_decoupled;
         self.turning.copy_from(&other.turning);
         self.slow.clone_from(&other.slow);
         self.control.copy_from(&other.control);

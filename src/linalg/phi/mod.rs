@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Small arguments: Taylor's series of the highest order, then downwards (no cancellation). A 2 x 2 matrix with
-//! eigenvalues a +- i w: f(B) = Re f(lambda) + Im f(lambda) / w (B - a). Everything else: the argument is halved until
+//! eigenvalues a +- i w: f(B) = Re f(lambda) + Im f(lambda) / w (B - a), a line. Everything else: the argument is halved until
 //! the series serves, then doubled again:
 //!
 //! ```text
@@ -29,6 +29,15 @@ pub use scalar::PHI_ORDERS;
 const RESONANT: f64 = 1e-2;
 /// Arguments beyond 2^60 have lost all digits of their phase.
 const MOST_HALVINGS: u32 = 60;
+
+/// A function of a matrix B of one or two rows: level + slope (B - a), a half the sum of the diagonal.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Line {
+    /// The part along the identity.
+    pub level: f64,
+    /// The part along B - a.
+    pub slope: f64,
+}
 
 /// phi_0 to phi_6 of matrices up to a fixed size, computed without allocation.
 #[derive(Debug, Clone)]
@@ -78,42 +87,70 @@ impl PhiFunctions {
     pub fn evaluate(&mut self, matrix: &DMatrix<f64>, time: f64) {
         let m = matrix.nrows();
         self.size = m;
-        let square = m * m;
         for (target, value) in self.argument.iter_mut().zip(matrix.iter()) {
             *target = value * time;
         }
-        let own = complex_pair(matrix);
-        let pair = own.map(|value| value * time);
+        self.pair = None;
+        self.double_up(m);
+    }
+
+    /// The same for a matrix of one or two rows, whose functions are all lines; `None` for a larger one.
+    pub fn evaluate_small(
+        &mut self,
+        matrix: &DMatrix<f64>,
+        time: f64,
+    ) -> Option<[Line; PHI_ORDERS]> {
+        let m = matrix.nrows();
+        if m == 1 {
+            self.pair = None;
+            let functions = complex_phi_functions(Complex::new(matrix[(0, 0)] * time, 0.0));
+            let line = |phi: Complex<f64>| Line {
+                level: phi.re,
+                slope: 0.0,
+            };
+            return Some(functions.map(line));
+        }
+        if m != 2 {
+            return None;
+        }
         // With a small w the formula would divide rounding by w; the series has rounding of its argument's size only.
-        let well_apart = |value: &Complex<f64>| {
+        let well_apart = |eigenvalue: &Complex<f64>| {
+            let value = eigenvalue * time;
             let series = value.l1_norm() <= SERIES_RADIUS;
             value.im > 1e-3 * (value.re.abs() + if series { 0.0 } else { 1.0 })
         };
-        self.pair = None;
-        if m == 1 {
-            let phi = complex_phi_functions(Complex::new(self.argument[0], 0.0));
-            for (target, value) in self.values.iter_mut().zip(phi) {
-                *target = value.re;
-            }
-        } else if let Some(value) = pair.filter(well_apart) {
-            let functions = complex_phi_functions(value);
-            self.pair = own.map(|eigenvalue| (eigenvalue, functions[0]));
-            for (phi, target) in functions.iter().zip(self.values.chunks_exact_mut(square)) {
-                let slope = phi.im / value.im;
-                for (index, (entry, argument)) in target.iter_mut().zip(&self.argument).enumerate()
-                {
-                    let on_diagonal = index % (m + 1) == 0;
-                    let shifted = if on_diagonal {
-                        argument - value.re
-                    } else {
-                        *argument
-                    };
-                    *entry = slope * shifted + if on_diagonal { phi.re } else { 0.0 };
-                }
-            }
-        } else {
-            self.double_up(m);
+        if let Some(eigenvalue) = complex_pair(matrix).filter(well_apart) {
+            let functions = complex_phi_functions(eigenvalue * time);
+            self.pair = Some((eigenvalue, functions[0]));
+            let per_frequency = 1.0 / eigenvalue.im;
+            return Some(functions.map(|phi| Line {
+                level: phi.re,
+                slope: phi.im * per_frequency,
+            }));
         }
+        self.evaluate(matrix, time);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|entry| matrix[entry]);
+        let shifted = [0.5 * (a - d), b, c];
+        let (place, largest) =
+            shifted
+                .iter()
+                .enumerate()
+                .fold((0, 0.0), |most: (usize, f64), (place, entry)| {
+                    if entry.abs() > most.1.abs() {
+                        (place, *entry)
+                    } else {
+                        most
+                    }
+                });
+        let line = |k: usize| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|entry| self.get(k)[entry]);
+            let part = [0.5 * (a - d), b, c][place];
+            Line {
+                level: 0.5 * (a + d),
+                slope: if largest == 0.0 { 0.0 } else { part / largest },
+            }
+        };
+        Some(core::array::from_fn(line))
     }
 
     /// The argument is halved until the series serves, then doubled again.
@@ -298,6 +335,11 @@ mod tests {
     fn functions(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
         let m = matrix.nrows();
         let mut functions = PhiFunctions::new(m);
+        if let Some(lines) = functions.evaluate_small(matrix, 1.0) {
+            let shift = DMatrix::identity(m, m) * (matrix.trace() / m as f64);
+            let shifted = matrix - shift;
+            return lines.map(|line| DMatrix::identity(m, m) * line.level + &shifted * line.slope);
+        }
         functions.evaluate(matrix, 1.0);
         core::array::from_fn(|k| DMatrix::from_column_slice(m, m, functions.get(k)))
     }
@@ -367,7 +409,7 @@ mod tests {
             let mut response = PhiFunctions::new(3);
             let mut formula = [Complex::new(0.0, 0.0); 2];
             let driven = (frequency, rotation(frequency * time));
-            response.evaluate(&matrix, time);
+            assert!(response.evaluate_small(&matrix, time).is_some());
             response.oscillator_response((&matrix, time), driven, &load, &mut formula);
             // The same pair beside an unrelated state takes the general way.
             let mut larger = DMatrix::zeros(3, 3);

@@ -28,12 +28,7 @@ pub(super) fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDER
     let size = z.re.abs() + z.im.abs();
     if size <= SERIES_RADIUS {
         let top = PHI_ORDERS - 1;
-        let mut term = Complex::new(INVERSE_FACTORIAL[top], 0.0);
-        phi[top] = term;
-        for n in 1..=terms(size) {
-            term = term * z * RECIPROCAL[n + top];
-            phi[top] += term;
-        }
+        phi[top] = series(z, terms(size));
         for k in (0..top).rev() {
             phi[k] = z * phi[k + 1] + INVERSE_FACTORIAL[k];
         }
@@ -46,6 +41,28 @@ pub(super) fn complex_phi_functions(z: Complex<f64>) -> [Complex<f64>; PHI_ORDER
     }
     phi
 }
+
+/// The sum of z^n / (n + 6)!, n = 0, 1, ..., `last`. Divided by (x - z)(x - z*) the polynomial leaves a real line, whose value at z
+/// is that of the polynomial: real products only.
+fn series(z: Complex<f64>, last: usize) -> Complex<f64> {
+    let (twice, square) = (2.0 * z.re, z.norm_sqr());
+    let (mut one, mut two) = (0.0, 0.0);
+    for coefficient in SERIES[..=last].iter().rev() {
+        (one, two) = (coefficient + twice * one - square * two, one);
+    }
+    Complex::new(one - z.re * two, z.im * two)
+}
+
+/// 1/(n + 6)!.
+const SERIES: [f64; 15] = {
+    let mut values = [INVERSE_FACTORIAL[PHI_ORDERS - 1]; 15];
+    let mut n = 1;
+    while n < values.len() {
+        values[n] = values[n - 1] / (n + PHI_ORDERS - 1) as f64;
+        n += 1;
+    }
+    values
+};
 
 /// 1/n.
 pub(super) const RECIPROCAL: [f64; 21] = {

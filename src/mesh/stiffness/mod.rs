@@ -17,9 +17,10 @@
 //! Knows no gears and no time.
 
 use super::fourier::FourierSeries;
+use super::polynomial::Polynomial;
 use super::table::Table;
 use super::tooth_geometry::{PairStiffness, SpurPair};
-use super::tooth_pair::{PairCurve, ToothPair};
+use super::tooth_pair::ToothPair;
 
 /// k over the phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +41,8 @@ enum Shape {
         more_pairs: f64,
         split: f64,
     },
-    ToothPair(PairCurve),
+    /// The law, and each piece over the distance from its middle.
+    ToothPair(ToothPair, Vec<Polynomial>),
     ToothGeometry(PairStiffness),
     Fourier {
         mean: f64,
@@ -76,11 +78,19 @@ impl StiffnessLaw {
     /// The sum over the engaged tooth pairs.
     pub fn tooth_pair(law: ToothPair) -> StiffnessLaw {
         let (eps, ramp) = (law.contact_ratio, law.ramp.min(0.5 * law.contact_ratio));
-        let curve = PairCurve::of(law);
+        let starts = ascending([fraction(eps), fraction(ramp), fraction(eps - ramp)]);
+        let (mut pieces, mut mean) = (Vec::new(), 0.0);
+        for piece in 0..starts.len() {
+            let (middle, end) = (middle(&starts, piece), end(&starts, piece));
+            let pairs = (0..engaged(eps, middle)).map(|j| law.around(middle + j as f64));
+            let sum = pairs.fold(Polynomial::constant(0.0), |sum, one| sum.plus(1.0, &one));
+            mean += sum.integral(starts[piece] - middle, end - middle);
+            pieces.push(sum);
+        }
         StiffnessLaw {
-            shape: Shape::ToothPair(curve),
-            starts: ascending([fraction(eps), fraction(ramp), fraction(eps - ramp)]),
-            mean: curve.mean(),
+            shape: Shape::ToothPair(law, pieces),
+            starts,
+            mean,
         }
     }
 
@@ -154,9 +164,7 @@ impl StiffnessLaw {
     pub fn slack(&self, tolerance: f64) -> f64 {
         match self.shape {
             _ if self.is_smooth() => f64::INFINITY,
-            Shape::ToothPair(PairCurve { law, .. })
-                if law.ramp > 0.0 && 2.0 * law.ramp <= law.contact_ratio =>
-            {
+            Shape::ToothPair(law, _) if law.ramp > 0.0 && 2.0 * law.ramp <= law.contact_ratio => {
                 law.ramp * (4e-3 * tolerance / law.ramp).sqrt().sqrt()
             }
             _ => 0.0,
@@ -173,29 +181,35 @@ impl StiffnessLaw {
 
     /// k [N/m] at a phase in its cycle, continued smoothly from the given piece.
     pub fn value(&self, cycle: f64, piece: usize) -> f64 {
+        let [value] = self.values([cycle], piece);
+        value
+    }
+
+    /// k [N/m] at some phases in their cycle, continued smoothly from the given piece.
+    pub fn values<const N: usize>(&self, cycles: [f64; N], piece: usize) -> [f64; N] {
         match self.shape {
-            Shape::Constant { value } => value,
-            Shape::Fourier { mean, ref series } => mean * (1.0 + series.value(cycle)),
-            Shape::Table(ref table) => table.value(cycle, piece),
+            Shape::Constant { value } => [value; N],
+            Shape::Fourier { mean, ref series } => {
+                cycles.map(|cycle| mean * (1.0 + series.value(cycle)))
+            }
+            Shape::Table(ref table) => cycles.map(|cycle| table.value(cycle, piece)),
             Shape::Rectangular {
                 fewer_pairs,
                 more_pairs,
                 split,
             } => {
-                if self.middle(piece) < split {
-                    more_pairs
-                } else {
-                    fewer_pairs
-                }
+                let more = middle(&self.starts, piece) < split;
+                [if more { more_pairs } else { fewer_pairs }; N]
             }
-            Shape::ToothPair(ref curve) => self
-                .engaged(curve.law.contact_ratio, cycle, piece)
-                .map(|x| curve.one_pair(x))
-                .sum(),
-            Shape::ToothGeometry(ref law) => self
-                .engaged(law.contact_ratio(), cycle, piece)
-                .map(|x| law.value(x))
-                .sum(),
+            Shape::ToothPair(_, ref pieces) => {
+                let middle = middle(&self.starts, piece);
+                pieces[piece].values(cycles.map(|cycle| cycle - middle))
+            }
+            Shape::ToothGeometry(ref law) => cycles.map(|cycle| {
+                self.places(law.contact_ratio(), cycle, piece)
+                    .map(|x| law.value(x))
+                    .sum()
+            }),
         }
     }
 
@@ -205,28 +219,36 @@ impl StiffnessLaw {
             Shape::Constant { .. } | Shape::Rectangular { .. } => 0.0,
             Shape::Fourier { mean, ref series } => mean * series.slope(cycle),
             Shape::Table(ref table) => table.slope(piece),
-            Shape::ToothPair(ref curve) => self
-                .engaged(curve.law.contact_ratio, cycle, piece)
-                .map(|x| curve.one_pair_slope(x))
-                .sum(),
+            Shape::ToothPair(_, ref pieces) => {
+                pieces[piece].slope(cycle - middle(&self.starts, piece))
+            }
             Shape::ToothGeometry(ref law) => self
-                .engaged(law.contact_ratio(), cycle, piece)
+                .places(law.contact_ratio(), cycle, piece)
                 .map(|x| law.slope(x))
                 .sum(),
         }
     }
 
     /// Where in their contact [pitches] the pairs are that a piece engages.
-    fn engaged(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
-        // The number of pairs is that of the piece: rounding at its ends cannot change it.
-        let pairs = (contact_ratio - self.middle(piece) + 1.0).max(0.0);
-        (0..pairs as usize).map(move |j| cycle + j as f64)
+    fn places(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
+        let pairs = engaged(contact_ratio, middle(&self.starts, piece));
+        (0..pairs).map(move |j| cycle + j as f64)
     }
+}
 
-    fn middle(&self, piece: usize) -> f64 {
-        let end = self.starts.get(piece + 1).copied().unwrap_or(1.0);
-        0.5 * (self.starts[piece] + end)
-    }
+/// The number of pairs that a piece engages: that in its middle, so that rounding at its ends cannot change it.
+fn engaged(contact_ratio: f64, middle: f64) -> usize {
+    (contact_ratio - middle + 1.0).max(0.0) as usize
+}
+
+/// Where a piece ends.
+fn end(starts: &[f64], piece: usize) -> f64 {
+    starts.get(piece + 1).copied().unwrap_or(1.0)
+}
+
+/// Where it has its middle.
+fn middle(starts: &[f64], piece: usize) -> f64 {
+    0.5 * (starts[piece] + end(starts, piece))
 }
 
 fn fraction(value: f64) -> f64 {

@@ -73,7 +73,8 @@ impl Mesh {
     }
 
     fn stiffness_in(&self, piece: Piece, phase: Phase) -> f64 {
-        self.factor * self.law.value(phase.value - piece.origin, piece.index)
+        let [stiffness] = self.stiffnesses(piece, &[phase]);
+        stiffness
     }
 
     /// Compression of a flank (0 reference, 1 back) from its deflection and rate.
@@ -117,31 +118,57 @@ impl Mesh {
         }
     }
 
-    /// The force of a coupling of the mesh as a line: each flank, or what the torque follows; nothing where a flank is open.
-    fn line(&self, number: usize, phase: Phase, pieces: &[Piece]) -> Line {
+    /// The force of a coupling of the mesh as a line, in some phases with their stiffnesses: each flank, or what the torque
+    /// follows; nothing where a flank is open.
+    fn line<const N: usize>(
+        &self,
+        number: usize,
+        phases: &[Phase; N],
+        stiffness: &[f64; N],
+        pieces: &[Piece],
+    ) -> [Line; N] {
         let open = self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN;
         if open {
-            return Line::default();
+            return [Line::default(); N];
         }
-        let spring = Spring {
-            stiffness: self.stiffness_in(pieces[self.first_law], phase),
-            damping: self.damping,
-        };
         // Without backlash the second coupling follows the rotations alone.
         let bare = number == 1 && self.backlash.is_none();
-        let rest = if bare {
-            0.0
-        } else {
-            self.held_force(spring.stiffness, self.compression(number, phase, [0.0; 2]))
-        };
-        Line { spring, rest }
+        let straight = bare || (self.backlash.is_none() && self.error.is_zero());
+        core::array::from_fn(|i| {
+            let rest = if straight {
+                0.0
+            } else {
+                self.held_force(stiffness[i], self.compression(number, phases[i], [0.0; 2]))
+            };
+            Line {
+                spring: Spring {
+                    stiffness: stiffness[i],
+                    damping: self.damping,
+                },
+                rest,
+            }
+        })
     }
 
-    /// Overwrites the lines of the mesh's couplings at a time, at prescribed speed.
-    pub(super) fn lines_into(&self, time: f64, pieces: &[Piece], lines: &mut [Line]) {
-        let phase = self.phase_at(time);
-        for (number, line) in lines[self.couplings()].iter_mut().enumerate() {
-            *line = self.line(number, phase, pieces);
+    /// k [N/m] in some phases, continued smoothly from a piece.
+    fn stiffnesses<const N: usize>(&self, piece: Piece, phases: &[Phase; N]) -> [f64; N] {
+        let cycles = phases.map(|phase| phase.value - piece.origin);
+        self.law
+            .values(cycles, piece.index)
+            .map(|value| self.factor * value)
+    }
+
+    /// Overwrites the lines of the mesh's couplings at some times, at prescribed speed.
+    pub(super) fn lines_into<const N: usize>(
+        &self,
+        times: [f64; N],
+        pieces: &[Piece],
+        lines: &mut [[Line; N]],
+    ) {
+        let phases = times.map(|time| self.phase_at(time));
+        let stiffness = self.stiffnesses(pieces[self.first_law], &phases);
+        for (number, lines) in lines[self.couplings()].iter_mut().enumerate() {
+            *lines = self.line(number, &phases, &stiffness, pieces);
         }
     }
 
@@ -159,9 +186,10 @@ impl Mesh {
 
     /// Overwrites the forces of the mesh's couplings.
     pub(super) fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
-        let phase = self.phase(at);
+        let phase = [self.phase(at)];
+        let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
         for (number, coupling) in self.couplings().enumerate() {
-            let line = self.line(number, phase, pieces);
+            let [line] = self.line(number, &phase, &stiffness, pieces);
             forces[coupling] = line.at(at.deflection[coupling], at.rate[coupling]);
         }
         if let Some(observer) = self.turning {
@@ -171,9 +199,11 @@ impl Mesh {
 
     /// Overwrites the tangents of the mesh's couplings.
     pub(super) fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
-        let phase = self.phase(at);
+        let phase = [self.phase(at)];
+        let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
         for (number, coupling) in self.couplings().enumerate() {
-            tangents[coupling] = self.line(number, phase, pieces).spring;
+            let [line] = self.line(number, &phase, &stiffness, pieces);
+            tangents[coupling] = line.spring;
         }
         if let Some(observer) = self.turning {
             tangents[observer] = Spring::default();
@@ -209,6 +239,11 @@ impl Mesh {
         } else {
             by_force
         }
+    }
+
+    /// Whether time alone ends pieces of its laws.
+    pub(super) fn is_timed(&self) -> bool {
+        self.backlash.is_none() && self.turning.is_none()
     }
 
     /// Positive while the motion keeps law number `law` of the mesh in its piece.

@@ -3,14 +3,15 @@
 //! Almost all blocks are pairs (a vibration) or single (an overdamped motion). Pairs stand at even places, so that row i of
 //! them needs x_i and the neighbour x_(i^1) only, and the product runs through in one loop.
 
+use super::lanes::{Quad, add_product, neighbours};
 use super::part::Part;
 use crate::linalg::{Group, multiply_add};
 
 /// The numbers of the matrix.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BlockDiagonal {
-    /// Per pair of states the diagonal and then what either takes from the other; 0 within larger blocks.
-    pairs: Vec<[f64; 4]>,
+    /// The diagonal and what each state takes from its neighbour; 0 within larger blocks.
+    pairs: Vec<[Quad; 2]>,
     /// Blocks of other sizes: first state, and the entries column by column.
     others: Vec<(usize, usize, Vec<f64>)>,
 }
@@ -32,9 +33,9 @@ pub(super) fn rank(group: &Group) -> usize {
 impl BlockDiagonal {
     /// Room for one block per group of all parts.
     pub(super) fn zero(parts: &[Part]) -> BlockDiagonal {
-        let states = parts.iter().map(Part::len).sum::<usize>();
+        let quads = parts.iter().map(|part| part.quads().len()).sum();
         let mut matrix = BlockDiagonal {
-            pairs: vec![[0.0; 4]; states / 2],
+            pairs: vec![[[0.0; 4]; 2]; quads],
             others: Vec::new(),
         };
         for part in parts {
@@ -52,18 +53,19 @@ impl BlockDiagonal {
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
         let others: usize = self.others.iter().map(|(.., block)| block.len()).sum();
-        (4 * self.pairs.len() + others) * size_of::<f64>()
+        (8 * self.pairs.len() + others) * size_of::<f64>()
     }
 
     /// Overwrites the block of a group with `scale` times a matrix, column by column.
     pub(super) fn set(&mut self, part: &Part, group: &Group, scale: f64, block: &[f64]) {
         let (first, m) = (part.first + group.first, group.matrix.nrows());
         if is_in_pairs(group, part.paired) {
-            let pair = &mut self.pairs[first / 2];
+            let [own, across] = &mut self.pairs[first / 4];
+            let place = first % 4;
+            own[place] = scale * block[0];
             if m == 2 {
-                *pair = [block[0], block[3], block[2], block[1]].map(|entry| scale * entry);
-            } else {
-                pair[first % 2] = scale * block[0];
+                own[place + 1] = scale * block[3];
+                (across[place], across[place + 1]) = (scale * block[2], scale * block[1]);
             }
         } else if let Some((.., own)) = self.others.iter_mut().find(|other| other.0 == first) {
             for (entry, value) in own.iter_mut().zip(block) {
@@ -72,13 +74,28 @@ impl BlockDiagonal {
         }
     }
 
-    /// y += A x.
-    pub(super) fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
-        let vectors = x.chunks_exact(2).zip(y.chunks_exact_mut(2));
-        for ([d0, d1, c0, c1], (x, y)) in self.pairs.iter().zip(vectors) {
-            y[0] += d0 * x[0] + c0 * x[1];
-            y[1] += d1 * x[1] + c1 * x[0];
+    /// Overwrites the block of a group of one or two states with level + slope S.
+    pub(super) fn set_line(&mut self, part: &Part, group: &Group, level: f64, slope: f64) {
+        let matrix = group.matrix.as_slice();
+        if let [a, b, c, d] = *matrix {
+            let half = 0.5 * slope * (a - d);
+            let block = [level + half, slope * b, slope * c, level - half];
+            self.set(part, group, 1.0, &block);
+        } else {
+            self.set(part, group, 1.0, &[level]);
         }
+    }
+
+    /// y += A x in one quad, without larger blocks.
+    #[inline(always)]
+    pub(super) fn add_pairs(&self, quad: usize, x: &Quad, y: &mut Quad) {
+        let [own, across] = &self.pairs[quad];
+        add_product(y, own, x);
+        add_product(y, across, &neighbours(x));
+    }
+
+    /// y += A x of the larger blocks.
+    pub(super) fn add_others(&self, x: &[f64], y: &mut [f64]) {
         for (first, m, block) in &self.others {
             let range = *first..first + m;
             multiply_add(1.0, block, &x[range.clone()], &mut y[range]);

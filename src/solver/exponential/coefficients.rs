@@ -14,10 +14,11 @@ use nalgebra::Complex;
 
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
+use super::lanes::Quad;
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POINTS, POWERS};
 use super::sight::{Readings, both};
-use crate::linalg::{PhiFunctions, add_scaled, multiply_add};
+use crate::linalg::{Group, Line, PHI_ORDERS, PhiFunctions, dot};
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
@@ -30,12 +31,11 @@ pub(super) struct Coefficients {
     pub(super) free: Vec<Readings>,
     /// The same per change of the load.
     pub(super) ramp: Vec<Readings>,
-    /// f_j at the end: per part, actuator and state.
-    pub(super) columns: [Vec<f64>; NODES],
+    /// What the end takes from what acts on a part: per part and quad of states f_j of every node of every actuator, then the
+    /// responses to the cosine and to the sine of every harmonic.
+    pub(super) columns: Vec<Quad>,
     /// What sensors read per cosine and sine of the angle of a harmonic: per part, harmonic and sensor.
     pub(super) turning: Vec<[Readings; 2]>,
-    /// eta at the end, likewise: per part, harmonic and state.
-    pub(super) turning_end: [Vec<f64>; 2],
     /// e^(i w h) of every harmonic.
     pub(super) rotations: Vec<Complex<f64>>,
     pub(super) influences: Influences,
@@ -45,9 +45,9 @@ pub(super) struct Coefficients {
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
     phi: PhiFunctions,
-    /// m_k of every actuator, 2n each.
-    moments: [Vec<f64>; POWERS],
-    /// The response to every harmonic of a part, 2n each.
+    /// m_k of every actuator, len each.
+    moments: Vec<[f64; POWERS]>,
+    /// The response to every harmonic of a part, len each.
     responses: Vec<Complex<f64>>,
     /// e^(i w x h) of all harmonics.
     turned: Vec<Complex<f64>>,
@@ -59,11 +59,19 @@ struct Begin {
     free: usize,
     columns: usize,
     turning: usize,
-    turning_end: usize,
 }
 
 /// A place of the step: its number and x.
 type Place = (usize, f64);
+
+/// One group of a part at a place of a step.
+#[derive(Clone, Copy)]
+struct Spot<'a> {
+    part: &'a Part,
+    group: &'a Group,
+    place: Place,
+    h: f64,
+}
 
 impl Scratch {
     pub(super) fn new(parts: &[Part], harmonics: usize) -> Scratch {
@@ -73,13 +81,18 @@ impl Scratch {
             sizes.max().unwrap_or(0)
         });
         let still = Complex::new(0.0, 0.0);
-        let moment = vec![0.0; largest(&|part| part.len() * part.actuators.len())];
         Scratch {
             phi: PhiFunctions::new(group),
-            moments: core::array::from_fn(|_| moment.clone()),
+            moments: vec![[0.0; POWERS]; largest(&|part| part.len() * part.actuators.len())],
             responses: vec![still; largest(&|part| part.len() * part.harmonics.len())],
             turned: vec![still; harmonics],
         }
+    }
+
+    /// Zeros for the states that stay zero.
+    fn clear(&mut self, part: &Part) {
+        self.moments[..part.len() * part.actuators.len()].fill([0.0; POWERS]);
+        self.responses[..part.len() * part.harmonics.len()].fill(Complex::new(0.0, 0.0));
     }
 }
 
@@ -89,9 +102,8 @@ impl Begin {
         let harmonics = part.harmonics.len();
         Begin {
             free: self.free + part.sensors.len() * part.len(),
-            columns: self.columns + part.actuators.len() * part.len(),
+            columns: self.columns + part.columns() * part.quads().len(),
             turning: self.turning + harmonics * part.sensors.len(),
-            turning_end: self.turning_end + harmonics * part.len(),
         }
     }
 }
@@ -106,9 +118,8 @@ impl Coefficients {
             ramp_gain: BlockDiagonal::zero(parts),
             free: vec![readings; end.free],
             ramp: vec![readings; end.free],
-            columns: core::array::from_fn(|_| vec![0.0; end.columns]),
+            columns: vec![[0.0; 4]; end.columns],
             turning: vec![[readings; 2]; end.turning],
-            turning_end: core::array::from_fn(|_| vec![0.0; end.turning_end]),
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
@@ -123,8 +134,7 @@ impl Coefficients {
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
         let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Readings>();
-        let columns: usize = self.columns.iter().map(Vec::len).sum();
-        let numbers = columns + 2 * (self.turning_end[0].len() + self.rotations.len());
+        let numbers = 4 * self.columns.len() + 2 * self.rotations.len();
         let matrices = self.gain.bytes() + self.ramp_gain.bytes();
         readings + numbers * size_of::<f64>() + matrices + self.influences.bytes()
     }
@@ -170,48 +180,27 @@ impl Coefficients {
         (point, x): Place,
         (frequencies, scratch): (&[f64], &mut Scratch),
     ) {
-        let states = part.len();
-        for group in &part.groups {
-            let (first, m) = (group.first, group.matrix.nrows());
-            scratch.phi.evaluate(&group.matrix, x * h);
-            let responses = [
-                (x * h, 1, &mut self.gain, &mut self.free),
-                (x * h * x * h, 2, &mut self.ramp_gain, &mut self.ramp),
-            ];
-            for (factor, k, gain, seen) in responses {
-                let phi = scratch.phi.get(k);
-                if point == END {
-                    gain.set(part, group, factor, phi);
-                }
-                for sensor in 0..part.sensors.len() {
-                    let rows = &part.sensor_rows[sensor * states + first..][..m];
-                    let own = &mut seen[begin.free + sensor * states + first..][..m];
-                    for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
-                        let [deflection, rate] = match (rows, phi) {
-                            // Nearly all blocks are pairs: no loop.
-                            ([one, two], [x, y]) => [0, 1].map(|i| one[i] * x + two[i] * y),
-                            _ => both(rows, phi),
-                        };
-                        readings[point] = factor * deflection;
-                        readings[POINTS + point] = factor * rate;
-                    }
+        scratch.clear(part);
+        for (group, matrix) in part.groups.iter().map(|group| (group, &group.matrix)) {
+            let at = Spot {
+                part,
+                group,
+                place: (point, x),
+                h,
+            };
+            match scratch.phi.evaluate_small(matrix, x * h) {
+                Some(lines) => self.follow_lines(at, begin, &lines, scratch),
+                None => {
+                    scratch.phi.evaluate(matrix, x * h);
+                    self.follow_block(at, begin, scratch);
                 }
             }
-            let mut power = h;
-            for (k, moments) in scratch.moments.iter_mut().enumerate() {
-                power *= x;
-                let (phi, factor) = (scratch.phi.get(k + 1), FACTORIAL[k] * power);
-                for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
-                    let start = actuator * states + first;
-                    let own = &column.as_slice()[first..first + m];
-                    product_into(factor, phi, own, &mut moments[start..start + m]);
-                }
-            }
+            let (first, m) = (group.first, matrix.nrows());
             for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
                 let driven = (frequencies[*harmonic], scratch.turned[*harmonic]);
-                let response = &mut scratch.responses[number * states + first..][..m];
+                let response = &mut scratch.responses[number * part.len() + first..][..m];
                 let load = &load[first..first + m];
-                let block = (&group.matrix, x * h);
+                let block = (matrix, x * h);
                 scratch
                     .phi
                     .oscillator_response(block, driven, load, response);
@@ -219,14 +208,114 @@ impl Coefficients {
         }
     }
 
-    /// f_j at the end from the moments there.
+    /// Responses and moments of a group of one or two states, whose phi_k are level + slope S.
+    fn follow_lines(
+        &mut self,
+        at: Spot<'_>,
+        begin: Begin,
+        phi: &[Line; PHI_ORDERS],
+        scratch: &mut Scratch,
+    ) {
+        let (Spot { part, group, .. }, (point, x)) = (at, at.place);
+        let (states, own) = (part.len(), group.first..group.first + group.matrix.nrows());
+        let time = x * at.h;
+        let responses = [
+            (time, phi[1], &mut self.gain, &mut self.free),
+            (time * time, phi[2], &mut self.ramp_gain, &mut self.ramp),
+        ];
+        for (factor, phi, gain, seen) in responses {
+            let (level, slope) = (factor * phi.level, factor * phi.slope);
+            if point == END {
+                gain.set_line(part, group, level, slope);
+            }
+            for sensor in 0..part.sensors.len() {
+                for state in own.clone().map(|state| sensor * states + state) {
+                    let (rows, slopes) = (part.sensor_rows[state], part.sensor_slopes[state]);
+                    let readings = &mut seen[begin.free + state];
+                    for (what, (row, along)) in rows.into_iter().zip(slopes).enumerate() {
+                        readings[what * POINTS + point] = level * row + slope * along;
+                    }
+                }
+            }
+        }
+        let (factors, mut power) = (FACTORIAL, at.h);
+        let phi: [Line; POWERS] = core::array::from_fn(|k| {
+            power *= x;
+            let factor = factors[k] * power;
+            Line {
+                level: factor * phi[k + 1].level,
+                slope: factor * phi[k + 1].slope,
+            }
+        });
+        let columns = part.actuator_columns.as_slice();
+        let slopes = part.actuator_slopes.as_slice();
+        for actuator in 0..part.actuators.len() {
+            for state in own.clone().map(|state| actuator * states + state) {
+                let (column, along) = (columns[state], slopes[state]);
+                for (moment, phi) in scratch.moments[state].iter_mut().zip(&phi) {
+                    *moment = phi.level * column + phi.slope * along;
+                }
+            }
+        }
+    }
+
+    /// Responses and moments of a larger group.
+    fn follow_block(&mut self, at: Spot<'_>, begin: Begin, scratch: &mut Scratch) {
+        let (Spot { part, group, .. }, (point, x)) = (at, at.place);
+        let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
+        let time = x * at.h;
+        let responses = [
+            (time, 1, &mut self.gain, &mut self.free),
+            (time * time, 2, &mut self.ramp_gain, &mut self.ramp),
+        ];
+        for (factor, k, gain, seen) in responses {
+            let phi = scratch.phi.get(k);
+            if point == END {
+                gain.set(part, group, factor, phi);
+            }
+            for sensor in 0..part.sensors.len() {
+                let start = sensor * states + first;
+                let rows = &part.sensor_rows[start..start + m];
+                let own = &mut seen[begin.free + start..][..m];
+                for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
+                    let [deflection, rate] = both(rows, phi);
+                    readings[point] = factor * deflection;
+                    readings[POINTS + point] = factor * rate;
+                }
+            }
+        }
+        let mut power = at.h;
+        for (k, factor) in FACTORIAL.into_iter().enumerate() {
+            power *= x;
+            let phi = scratch.phi.get(k + 1);
+            for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
+                let own = &column.as_slice()[first..first + m];
+                let moments = &mut scratch.moments[actuator * states + first..][..m];
+                for (i, moment) in moments.iter_mut().enumerate() {
+                    let terms = own.iter().enumerate().map(|(j, own)| phi[i + j * m] * own);
+                    moment[k] = factor * power * terms.sum::<f64>();
+                }
+            }
+        }
+    }
+
+    /// The columns of the part, from moments and responses at the end.
     fn combine_columns(&mut self, part: &Part, begin: Begin, scratch: &Scratch) {
-        let used = part.len() * part.actuators.len();
-        for (columns, l) in self.columns.iter_mut().zip(&LAGRANGE) {
-            let own = &mut columns[begin.columns..begin.columns + used];
-            own.fill(0.0);
-            for (l, moment) in l.iter().zip(&scratch.moments) {
-                add_scaled(*l, &moment[..used], own);
+        let (states, width) = (part.len(), part.columns());
+        let own = &mut self.columns[begin.columns..][..width * part.quads().len()];
+        let turning = NODES * part.actuators.len();
+        for state in 0..states {
+            let (row, lane) = (&mut own[state / 4 * width..][..width], state % 4);
+            let (forces, angles) = row.split_at_mut(turning);
+            for (actuator, columns) in forces.chunks_exact_mut(NODES).enumerate() {
+                let moment = &scratch.moments[actuator * states + state];
+                for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
+                    column[lane] = dot(l, &moment[..NODES]);
+                }
+            }
+            for (number, columns) in angles.chunks_exact_mut(2).enumerate() {
+                let response = scratch.responses[number * states + state];
+                (columns[0][lane], columns[1][lane]) = (response.re, -response.im);
             }
         }
     }
@@ -248,27 +337,7 @@ impl Coefficients {
                     readings[1][what * POINTS + point] = -seen.im;
                 }
             }
-            if point == END {
-                let first = begin.turning_end + number * states;
-                let [cosine, sine] = &mut self.turning_end;
-                let both = cosine[first..].iter_mut().zip(&mut sine[first..]);
-                for (response, (cosine, sine)) in response.iter().zip(both) {
-                    (*cosine, *sine) = (response.re, -response.im);
-                }
-            }
         }
-    }
-}
-
-/// target = scale A x for a small matrix, column by column.
-fn product_into(scale: f64, matrix: &[f64], x: &[f64], target: &mut [f64]) {
-    if let ([a, b, c, d], [x, y], [one, two]) = (matrix, x, &mut *target) {
-        // Nearly all are pairs: no loop.
-        *one = scale * (a * x + c * y);
-        *two = scale * (b * x + d * y);
-    } else {
-        target.fill(0.0);
-        multiply_add(scale, matrix, x, target);
     }
 }
 
@@ -280,18 +349,20 @@ fn add_influences(
     (exchange, influences): (&Exchange, &mut Influences),
     scratch: &Scratch,
 ) {
-    let (states, sensors) = (part.len(), part.sensors.len());
-    // Only the bubbles, at the end, need the higher powers.
-    let powers = if point == END { POWERS } else { NODES };
-    for actuator in 0..part.actuators.len() {
-        let range = actuator * states..(actuator + 1) * states;
-        for sensor in 0..sensors {
+    let states = part.len();
+    let moments = scratch.moments.chunks_exact(states.max(1));
+    for (actuator, moments) in moments.take(part.actuators.len()).enumerate() {
+        for sensor in 0..part.sensors.len() {
             let rows = &part.sensor_rows[sensor * states..][..states];
-            let entry = (number, actuator * sensors + sensor);
             let mut seen = [[0.0; POWERS]; 2];
-            for (k, moment) in scratch.moments[..powers].iter().enumerate() {
-                [seen[0][k], seen[1][k]] = both(rows, &moment[range.clone()]);
+            for (row, moment) in rows.iter().zip(moments) {
+                for (seen, entry) in seen.iter_mut().zip(row) {
+                    for (seen, moment) in seen.iter_mut().zip(moment) {
+                        *seen += entry * moment;
+                    }
+                }
             }
+            let entry = (number, actuator * part.sensors.len() + sensor);
             for (what, seen) in seen.iter().enumerate() {
                 influences.add(exchange, entry, (point, what), seen);
                 if point == END {

@@ -8,7 +8,7 @@
 use super::super::march::{Ending, Span, Task};
 use super::super::{Forcing, Piece};
 use super::kernel::Kernel;
-use super::polynomials::{IN_TIME, PLACES, POINTS};
+use super::polynomials::{PLACES, POINTS};
 use super::sight::{Sight, instant};
 
 /// Accuracy of the time of an event, in parts of the way between two places.
@@ -21,7 +21,7 @@ const SMALLEST_MARGIN: f64 = 1e-12;
 /// with squares of depths.
 const CLEAR: (f64, f64) = (1e-5, 1e-2);
 /// Places between two points at which the interpolated motion is looked at.
-const BETWEEN: usize = 4;
+const BETWEEN: usize = 6;
 
 /// What a step shows of the pieces.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ pub(super) enum Sighting {
     Unclear { ratio: f64 },
 }
 
-/// The margins of one law at the start of a step and at its points, in the order of time.
+/// The margins of one law at the start of a step and at its points.
 struct Margins([f64; POINTS + 1]);
 
 impl Margins {
@@ -130,20 +130,16 @@ struct View<'a, F> {
 }
 
 impl<F: Forcing> View<'_, F> {
-    /// When place number `index` in the order of time comes, as part of the step: 0 is the start.
+    /// When place number `index` comes, as part of the step: 0 is the start.
     fn part(index: usize) -> f64 {
-        if index == 0 {
-            0.0
-        } else {
-            PLACES[IN_TIME[index - 1]]
-        }
+        if index == 0 { 0.0 } else { PLACES[index - 1] }
     }
 
     fn seen(sight: &Sight, index: usize) -> &[Vec<f64>; 2] {
         if index == 0 {
             &sight.start
         } else {
-            &sight.points[IN_TIME[index - 1]]
+            &sight.points[index - 1]
         }
     }
 
@@ -174,7 +170,7 @@ impl<F: Forcing> View<'_, F> {
             // Movements, because the slope is a difference over a width that may be tiny.
             let moved = between.map(|index| match index {
                 0 => 0.0,
-                index => sight.moved(coupling, IN_TIME[index - 1]),
+                index => sight.moved(coupling, index - 1),
             });
             let end = |moved: f64, seen: &[Vec<f64>; 2]| [moved, seen[1][coupling] * width];
             let (value, slope) = hermite(end(moved[0], left), end(moved[1], right), s);

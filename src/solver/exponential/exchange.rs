@@ -23,6 +23,8 @@ pub(super) struct Pair {
 #[derive(Debug, Clone)]
 pub(super) struct Exchange {
     pub(super) pairs: Vec<Pair>,
+    /// For every coupling the pairs that other ones act on it by: their numbers and actuators.
+    pub(super) others: Vec<Vec<(usize, usize)>>,
     /// For every part the pair of each actuator and sensor, sensors running fastest.
     of_part: Vec<Vec<usize>>,
 }
@@ -35,11 +37,11 @@ type Influence = [Readings; NODES];
 pub(super) struct Influences {
     pub(super) of_pairs: Vec<Influence>,
     /// Deflection and rate at the end per bubble of the force at either check.
-    bubbles: Vec<[[f64; CHECKS.len()]; 2]>,
+    bubbles: Vec<[[f64; CHECKS]; 2]>,
 }
 
 impl Exchange {
-    pub(super) fn between(parts: &[Part]) -> Exchange {
+    pub(super) fn between(parts: &[Part], couplings: usize) -> Exchange {
         let joined = |part: &Part| -> Vec<Pair> {
             let actuators = part.actuators.iter();
             let pairs = actuators.flat_map(|&actuator| {
@@ -53,8 +55,17 @@ impl Exchange {
         pairs.dedup();
         let number = |pair: &Pair| pairs.partition_point(|other| other < pair);
         let of_part = |part: &Part| joined(part).iter().map(number).collect();
+        let others = |sensor: usize| {
+            let numbered = pairs.iter().enumerate();
+            let acting = numbered.filter(|(_, pair)| pair.sensor == sensor);
+            acting
+                .filter(|(_, pair)| pair.actuator != sensor)
+                .map(|(number, pair)| (number, pair.actuator))
+                .collect()
+        };
         Exchange {
             of_part: parts.iter().map(of_part).collect(),
+            others: (0..couplings).map(others).collect(),
             pairs,
         }
     }
@@ -72,17 +83,19 @@ impl Exchange {
         }
     }
 
-    /// Deflections and rates at the end become smaller by what is missing in the forces at the checks.
+    /// How what is missing in the forces at the checks would change deflections and rates at the end.
     pub(super) fn exert_missing(
         &self,
         influences: &Influences,
-        missing: &[[f64; CHECKS.len()]],
-        [deflection, rate]: &mut [Vec<f64>; 2],
+        missing: &[[f64; CHECKS]],
+        drift: &mut [[f64; 2]],
     ) {
-        for (pair, [on_deflection, on_rate]) in self.pairs.iter().zip(&influences.bubbles) {
-            let force = &missing[pair.actuator];
-            deflection[pair.sensor] -= product(on_deflection, force);
-            rate[pair.sensor] -= product(on_rate, force);
+        drift.fill([0.0; 2]);
+        for (pair, bubbles) in self.pairs.iter().zip(&influences.bubbles) {
+            let [first, second] = missing[pair.actuator];
+            for (drift, bubble) in drift[pair.sensor].iter_mut().zip(bubbles) {
+                *drift -= bubble[0] * first + bubble[1] * second;
+            }
         }
     }
 }
@@ -93,7 +106,7 @@ impl Influences {
         let count = exchange.pairs.len();
         Influences {
             of_pairs: vec![[[0.0; 2 * POINTS]; NODES]; count],
-            bubbles: vec![[[0.0; CHECKS.len()]; 2]; count],
+            bubbles: vec![[[0.0; CHECKS]; 2]; count],
         }
     }
 
@@ -105,7 +118,7 @@ impl Influences {
     /// No influence, before the parts add theirs.
     pub(super) fn clear(&mut self) {
         self.of_pairs.fill([[0.0; 2 * POINTS]; NODES]);
-        self.bubbles.fill([[0.0; CHECKS.len()]; 2]);
+        self.bubbles.fill([[0.0; CHECKS]; 2]);
     }
 
     /// The influence of a pair of part number `part` grows by what the powers (s/h)^k of its force do at a point to the

@@ -20,9 +20,11 @@ mod control;
 mod events;
 mod exchange;
 mod kernel;
+mod lanes;
 mod motion;
 mod nodes;
 mod part;
+mod passes;
 mod polynomials;
 mod sight;
 mod turning;
@@ -46,13 +48,15 @@ impl Exponential {
     /// A workspace for this system under harmonics like these.
     pub fn new(system: &System, harmonics: &[Harmonic]) -> Exponential {
         let zeros = || vec![0.0; system.size];
+        let kernel = Kernel::new(system, harmonics);
         let before = State {
             turning: Turning::unknown(harmonics.len()),
+            decoupled: kernel.states(),
             ..system.state_at(0.0, zeros(), zeros(), 0)
         };
         Exponential {
             march: March::new(system),
-            kernel: Kernel::new(system, harmonics),
+            kernel,
             before,
         }
     }
@@ -67,6 +71,7 @@ impl Exponential {
     ) -> State {
         State {
             turning: Turning::unknown(self.before.turning.angles.len()),
+            decoupled: self.kernel.states(),
             ..system.state_at(time, position, velocity, 0)
         }
     }

@@ -2,19 +2,22 @@
 
 use super::super::{Ramp, State};
 use super::block_diagonal::BlockDiagonal;
+use super::lanes::{Quad, add_multiple};
 use super::part::Part;
 use crate::linalg::{add_scaled, multiply_add};
 
-/// One entry per state of all parts in every list.
+/// The states of all parts in every list.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     /// eta.
-    pub(super) states: Vec<f64>,
+    pub(super) states: Vec<Quad>,
     /// B eta + load.
-    pub(super) derivative: Vec<f64>,
+    pub(super) derivative: Vec<Quad>,
     /// The load from outside at the start of the call, and its change per second.
-    load: Vec<f64>,
-    pub(super) load_rate: Vec<f64>,
+    load: Vec<Quad>,
+    pub(super) load_rate: Vec<Quad>,
+    /// What these belong to.
+    loads: Vec<Ramp>,
     /// Whether it changes.
     pub(super) ramps: bool,
     /// Displacements and velocities of one part.
@@ -25,39 +28,48 @@ pub(super) struct Motion {
 
 impl Motion {
     /// At rest.
-    pub(super) fn new(parts: &[Part]) -> Motion {
-        let zeros = || vec![0.0; parts.iter().map(Part::len).sum()];
+    pub(super) fn new(parts: &[Part], loads: usize) -> Motion {
+        let quads = parts.iter().map(|part| part.quads().len()).sum();
+        let zeros = || vec![[0.0; 4]; quads];
         let mut dynamics = BlockDiagonal::zero(parts);
         for part in parts {
             for group in &part.groups {
                 dynamics.set(part, group, 1.0, group.matrix.as_slice());
             }
         }
+        let largest = parts.iter().map(|part| 2 * part.coordinates.len()).max();
         Motion {
             states: zeros(),
             derivative: zeros(),
             load: zeros(),
             load_rate: zeros(),
+            loads: Vec::with_capacity(loads),
             ramps: false,
-            together: zeros(),
+            together: vec![0.0; largest.unwrap_or(0)],
             dynamics,
         }
     }
 
     /// The loads from outside.
     pub(super) fn set_loads(&mut self, parts: &[Part], ramps: &[Ramp]) {
+        if self.loads == ramps {
+            return; // nothing has changed since the call before
+        }
+        self.loads.clear();
+        self.loads.extend_from_slice(ramps);
         self.ramps = ramps.iter().any(|ramp| ramp.rate != 0.0);
-        self.load.fill(0.0);
-        self.load_rate.fill(0.0);
+        self.load.fill([0.0; 4]);
+        self.load_rate.fill([0.0; 4]);
         for part in parts {
-            let own = part.states();
             for (number, column) in &part.loads {
                 let Ramp { first, rate } = ramps[*number];
                 if first != 0.0 {
-                    add_scaled(first, column, &mut self.load[own.clone()]);
+                    let own = &mut self.load[part.quads()];
+                    add_scaled(first, column, own.as_flattened_mut());
                 }
                 if rate != 0.0 {
-                    add_scaled(rate, column, &mut self.load_rate[own.clone()]);
+                    let own = &mut self.load_rate[part.quads()];
+                    add_scaled(rate, column, own.as_flattened_mut());
                 }
             }
         }
@@ -65,11 +77,12 @@ impl Motion {
 
     /// Decoupled states from displacements and velocities.
     pub(super) fn take_apart(&mut self, parts: &[Part], state: &State) {
-        self.states.fill(0.0);
+        self.states.fill([0.0; 4]);
         for part in parts {
-            let (range, n) = (part.coordinates.clone(), part.len() / 2);
-            let own = &mut self.states[part.states()];
-            let (per_position, per_velocity) = part.inverse.as_slice().split_at(n * part.len());
+            let range = part.coordinates.clone();
+            let own = self.states[part.quads()].as_flattened_mut();
+            let (per_position, per_velocity) =
+                part.inverse.as_slice().split_at(range.len() * own.len());
             multiply_add(1.0, per_position, &state.position[range.clone()], own);
             multiply_add(1.0, per_velocity, &state.velocity[range], own);
         }
@@ -79,9 +92,9 @@ impl Motion {
     pub(super) fn put_together(&mut self, parts: &[Part], state: &mut State) {
         for part in parts {
             let range = part.coordinates.clone();
-            let together = &mut self.together[..part.len()];
+            let together = &mut self.together[..2 * range.len()];
             together.fill(0.0);
-            let own = &self.states[part.states()];
+            let own = self.states[part.quads()].as_flattened();
             multiply_add(1.0, part.shapes.as_slice(), own, together);
             let (position, velocity) = together.split_at(range.len());
             state.position[range.clone()].copy_from_slice(position);
@@ -90,20 +103,57 @@ impl Motion {
     }
 
     /// B eta + load, some seconds after the start of the call.
+    #[inline(always)]
     pub(super) fn differentiate(&mut self, elapsed: f64) {
-        self.derivative.copy_from_slice(&self.load);
-        if self.ramps {
-            add_scaled(elapsed, &self.load_rate, &mut self.derivative);
+        let quads = self.derivative.iter_mut().zip(&self.states).zip(&self.load);
+        for (quad, ((derivative, state), load)) in quads.enumerate() {
+            let mut sum = *load;
+            if self.ramps {
+                add_multiple(&mut sum, elapsed, &self.load_rate[quad]);
+            }
+            self.dynamics.add_pairs(quad, state, &mut sum);
+            *derivative = sum;
         }
+        let states = self.states.as_flattened();
         self.dynamics
-            .multiply_add(&self.states, &mut self.derivative);
+            .add_others(states, self.derivative.as_flattened_mut());
     }
 
-    /// eta + h phi_1 (B eta + load) + h^2 phi_2 load': the step without forces.
-    pub(super) fn advance(&mut self, gain: &BlockDiagonal, ramp_gain: &BlockDiagonal) {
-        gain.multiply_add(&self.derivative, &mut self.states);
+    /// The step of one part: eta + h phi_1 (B eta + load) + h^2 phi_2 load' + columns times what acts, without the larger blocks of
+    /// both matrices.
+    #[inline(always)]
+    pub(super) fn advance(
+        &mut self,
+        part: &Part,
+        [gain, ramp_gain]: [&BlockDiagonal; 2],
+        columns: &[Quad],
+        acting: &[[f64; 2]],
+    ) {
+        let width = 2 * acting.len();
+        for (number, quad) in part.quads().enumerate() {
+            // Two sums, so that one addition need not wait for the last.
+            let mut sums = [self.states[quad], [0.0; 4]];
+            gain.add_pairs(quad, &self.derivative[quad], &mut sums[1]);
+            if self.ramps {
+                ramp_gain.add_pairs(quad, &self.load_rate[quad], &mut sums[0]);
+            }
+            let own = &columns[number * width..(number + 1) * width];
+            for (pair, factors) in own.chunks_exact(2).zip(acting) {
+                for ((sum, column), factor) in sums.iter_mut().zip(pair).zip(factors) {
+                    add_multiple(sum, *factor, column);
+                }
+            }
+            let [one, two] = sums;
+            self.states[quad] = core::array::from_fn(|i| one[i] + two[i]);
+        }
+    }
+
+    /// What larger blocks of both matrices add to that.
+    pub(super) fn advance_others(&mut self, gain: &BlockDiagonal, ramp_gain: &BlockDiagonal) {
+        let states = self.states.as_flattened_mut();
+        gain.add_others(self.derivative.as_flattened(), states);
         if self.ramps {
-            ramp_gain.multiply_add(&self.load_rate, &mut self.states);
+            ramp_gain.add_others(self.load_rate.as_flattened(), states);
         }
     }
 }

@@ -11,8 +11,8 @@
 use super::super::march::{Span, Task};
 use super::super::{Forcing, Line, Piece};
 use super::exchange::{Exchange, Influences};
-use super::polynomials::{CHECKS, END, LAGRANGE_AT_CHECKS, NODES, PLACES, POINTS};
-use super::sight::{Sight, copy, instant};
+use super::polynomials::{CHECK_PLACES, CHECKS, END, LAGRANGE_AT_CHECKS, NODES, PLACES, POINTS};
+use super::sight::{Readings, Sight, instant};
 use crate::linalg::dot;
 
 /// Sweeps after which a step counts as too long.
@@ -21,21 +21,27 @@ const MOST_SWEEPS: usize = 25;
 const ACCURACY: (f64, f64) = (1e-3, 1e-13);
 /// The most that the forces of a coupling may do to themselves within a step: beyond, they answer to rounding.
 const MOST_FEEDBACK: f64 = 4.0;
-/// The nodes behind the first, whose force is known.
-const UNKNOWN: usize = NODES - 1;
+/// Places where laws are evaluated: the points, then those for comparison.
+const LINES: usize = POINTS + CHECKS;
+/// Of one coupling at all points.
+type Vector = [f64; POINTS];
+/// What the forces of one coupling do to those of another: a column per node.
+type Mutual = [Vector; POINTS];
 
 /// The equations of one step, with room for them.
 #[derive(Debug, Clone)]
 pub(super) struct Nodes {
-    /// The lines of all couplings at the points.
-    lines: [Vec<Line>; POINTS],
+    /// The lines of all couplings.
+    lines: Vec<[Line; LINES]>,
     /// For every pair how the sensor's forces depend on the actuator's.
-    mutual: Vec<[[f64; UNKNOWN]; UNKNOWN]>,
+    mutual: Vec<Mutual>,
     /// For every coupling the inverse of its own equations, and their right-hand side.
-    inverse: Vec<[[f64; UNKNOWN]; UNKNOWN]>,
-    right: Vec<[f64; UNKNOWN]>,
+    inverse: Vec<Mutual>,
+    right: Vec<Vector>,
+    /// One over the size of its forces, in units of which changes count.
+    per_size: Vec<f64>,
     /// What the cubic leaves out of the forces at the checks.
-    missing: Vec<[f64; CHECKS.len()]>,
+    missing: Vec<[f64; CHECKS]>,
     /// How the forces at the end change with that.
     pub(super) change: Vec<f64>,
     /// Evaluations of all forces.
@@ -45,11 +51,12 @@ pub(super) struct Nodes {
 impl Nodes {
     pub(super) fn new(couplings: usize, exchange: &Exchange) -> Nodes {
         Nodes {
-            lines: core::array::from_fn(|_| vec![Line::default(); couplings]),
-            mutual: vec![[[0.0; UNKNOWN]; UNKNOWN]; exchange.pairs.len()],
-            inverse: vec![[[0.0; UNKNOWN]; UNKNOWN]; couplings],
-            right: vec![[0.0; UNKNOWN]; couplings],
-            missing: vec![[0.0; CHECKS.len()]; couplings],
+            lines: vec![[Line::default(); LINES]; couplings],
+            mutual: vec![Mutual::default(); exchange.pairs.len()],
+            inverse: vec![IDENTITY; couplings],
+            right: vec![[0.0; POINTS]; couplings],
+            per_size: vec![0.0; couplings],
+            missing: vec![[0.0; CHECKS]; couplings],
             change: vec![0.0; couplings],
             evaluations: 0,
         }
@@ -69,10 +76,11 @@ impl Nodes {
         }
         let accuracy = (ACCURACY.0 * task.tolerance).max(ACCURACY.1);
         let found = if task.forcing.is_straight() {
-            for (lines, place) in self.lines.iter_mut().zip(PLACES) {
-                task.forcing.lines_into(span.at(place), pieces, lines);
-            }
-            self.evaluations += POINTS as u64;
+            let [a, b, end] = PLACES.map(|place| span.at(place));
+            let [first, second] = CHECK_PLACES.map(|place| span.at(place));
+            let times = [a, b, end, first, second];
+            task.forcing.lines_into(times, pieces, &mut self.lines);
+            self.evaluations += LINES as u64;
             self.set_up(exchange, influences, sight) <= MOST_FEEDBACK
                 && self.sweep_blocks(exchange, accuracy, sight)
         } else {
@@ -88,32 +96,33 @@ impl Nodes {
     /// The linear equations of this step. Gives the largest entry of a coupling's own.
     fn set_up(&mut self, exchange: &Exchange, influences: &Influences, sight: &Sight) -> f64 {
         let mut feedback: f64 = 0.0;
-        for (coupling, (right, free)) in self.right.iter_mut().zip(&sight.free).enumerate() {
+        let unknown = self.right.iter_mut().zip(&sight.free).zip(&self.lines);
+        for (coupling, ((right, free), lines)) in unknown.enumerate() {
             let [deflection, rate] = [0, 1].map(|what| sight.start[what][coupling]);
-            for (point, right) in right.iter_mut().enumerate() {
-                let seen = [deflection + free[point], rate + free[POINTS + point]];
-                *right = self.lines[point][coupling].at(seen[0], seen[1]);
-            }
-            self.inverse[coupling] = IDENTITY;
+            *right = core::array::from_fn(|point| {
+                lines[point].at(deflection + free[point], rate + free[POINTS + point])
+            });
         }
         let pairs = exchange.pairs.iter().zip(&influences.of_pairs);
-        for ((pair, influence), mutual) in pairs.zip(&mut self.mutual) {
-            let spring = [0, 1, END].map(|point| self.lines[point][pair.sensor].spring);
-            let push = |node: usize, point: usize| {
-                spring[point].stiffness * influence[node][point]
-                    + spring[point].damping * influence[node][POINTS + point]
+        for ((pair, [known, unknown @ ..]), mutual) in pairs.zip(&mut self.mutual) {
+            let lines = &self.lines[pair.sensor];
+            let push = |moved: &Readings| -> Vector {
+                core::array::from_fn(|point| {
+                    let spring = lines[point].spring;
+                    spring.stiffness * moved[point] + spring.damping * moved[POINTS + point]
+                })
             };
-            let known = sight.forces[pair.actuator][0];
-            for (point, right) in self.right[pair.sensor].iter_mut().enumerate() {
-                *right -= push(0, point) * known;
-            }
-            *mutual =
-                core::array::from_fn(|point| core::array::from_fn(|node| push(node + 1, point)));
+            let force = sight.forces[pair.actuator][0];
+            subtract(force, &push(known), &mut self.right[pair.sensor]);
+            *mutual = unknown.each_ref().map(push);
             if pair.sensor == pair.actuator {
                 let mut own = *mutual;
-                for (i, row) in own.iter_mut().enumerate() {
-                    feedback = row.iter().fold(feedback, |most, one| most.max(one.abs()));
-                    row[i] += 1.0;
+                for (i, column) in own.iter_mut().enumerate() {
+                    let most = column
+                        .iter()
+                        .fold(0.0, |most: f64, one| most.max(one.abs()));
+                    feedback = feedback.max(most);
+                    column[i] += 1.0;
                 }
                 self.inverse[pair.sensor] = inverse(&own);
             }
@@ -121,40 +130,50 @@ impl Nodes {
         feedback
     }
 
-    /// Block by block until nothing changes.
-    fn sweep_blocks(&self, exchange: &Exchange, accuracy: f64, sight: &mut Sight) -> bool {
-        let (mut before, least) = (0.0, least_force(sight));
+    /// Every coupling solved with itself: what its forces are without the others, and how they depend on theirs.
+    fn solve_own(&mut self, exchange: &Exchange, sight: &Sight) {
+        let least = least_force(sight);
+        for (coupling, inverse) in self.inverse.iter().enumerate() {
+            let alone = product(inverse, &self.right[coupling]);
+            let first = sight.forces[coupling][0].abs().max(least);
+            let size = alone
+                .iter()
+                .fold(first, |most, force| most.max(force.abs()));
+            self.per_size[coupling] = 1.0 / size;
+            self.right[coupling] = alone;
+            for &(pair, _) in &exchange.others[coupling] {
+                let mutual = &mut self.mutual[pair];
+                *mutual = mutual.map(|column| product(inverse, &column));
+            }
+        }
+    }
+
+    /// Coupling after coupling until nothing changes.
+    fn sweep_blocks(&mut self, exchange: &Exchange, accuracy: f64, sight: &mut Sight) -> bool {
+        self.solve_own(exchange, sight);
+        let mut before = 0.0;
         for _ in 0..MOST_SWEEPS {
             let mut changed: f64 = 0.0;
-            let mut pairs = exchange.pairs.iter().zip(&self.mutual).peekable();
-            let equations = self.right.iter().zip(&self.inverse);
-            let (mut alone, mut sound) = (true, true);
-            for (coupling, (right, inverse)) in equations.enumerate() {
-                let mut right = *right;
-                while let Some((pair, mutual)) = pairs.next_if(|(pair, _)| pair.sensor == coupling)
-                {
-                    if pair.actuator != coupling {
-                        alone = false;
-                        let [_, f1, f2, f3] = sight.forces[pair.actuator];
-                        for (right, row) in right.iter_mut().zip(mutual) {
-                            *right -= product(row, &[f1, f2, f3]);
-                        }
+            let mut alone = true;
+            for (coupling, others) in exchange.others.iter().enumerate() {
+                let mut present = self.right[coupling];
+                for &(pair, actuator) in others {
+                    let [_, forces @ ..] = sight.forces[actuator];
+                    for (column, force) in self.mutual[pair].iter().zip(forces) {
+                        subtract(force, column, &mut present);
                     }
                 }
-                let present = inverse.map(|row| product(&row, &right));
+                alone &= others.is_empty();
                 let forces = &mut sight.forces[coupling][1..];
-                let (mut size, mut change) = (least, 0.0);
                 for (force, present) in forces.iter_mut().zip(present) {
-                    size = present.abs().max(size);
-                    change = (present - *force).abs().max(change);
-                    sound &= present.is_finite();
+                    let change = (present - *force).abs() * self.per_size[coupling];
+                    // Written so that a NaN stays one.
+                    changed = if change <= changed { changed } else { change };
                     *force = present;
                 }
-                if change > changed * size {
-                    changed = change / size;
-                }
             }
-            if !sound {
+            // Neither NaN nor infinity is a solution.
+            if !changed.is_finite() {
                 return false;
             }
             // The next sweep would change them by as much less again; after the first nothing is known yet.
@@ -196,7 +215,7 @@ impl Nodes {
                     *force = present;
                 }
             }
-            self.evaluations += UNKNOWN as u64;
+            self.evaluations += POINTS as u64;
             if settled {
                 return true;
             }
@@ -204,48 +223,77 @@ impl Nodes {
         false
     }
 
-    /// What the cubic leaves out at the checks, and how that would change deflections, rates (`sight.trial`) and forces at
+    /// What the cubic leaves out at the checks, and how that would change deflections, rates (`sight.drift`) and forces at
     /// the end.
     pub(super) fn look_for_errors<F: Forcing>(
         &mut self,
         task: Task<'_, F>,
-        (span, slow): (Span, &[f64]),
+        at: (Span, &[f64]),
         pieces: &[Piece],
         (exchange, influences): (&Exchange, &Influences),
         sight: &mut Sight,
     ) {
         let straight = task.forcing.is_straight();
-        for (check, (point, weights)) in CHECKS.into_iter().zip(LAGRANGE_AT_CHECKS).enumerate() {
-            let seen = &sight.points[point];
-            if straight {
-                forces_on(&self.lines[point], seen, &mut sight.present);
-            } else {
-                let at = instant(seen, span.at(PLACES[point]), slow);
-                task.forcing.forces_into(at, pieces, &mut sight.present);
-                self.evaluations += 1;
-            }
-            let forces = sight.present.iter().zip(&sight.forces);
-            for (missing, (present, forces)) in self.missing.iter_mut().zip(forces) {
-                missing[check] = present - dot(forces, &weights);
-            }
-        }
-        let trial = &mut sight.trial;
-        copy(&sight.points[END], trial);
-        exchange.exert_missing(influences, &self.missing, trial);
         if straight {
-            // From the differences: forces themselves would leave their rounding.
-            for (coupling, change) in self.change.iter_mut().enumerate() {
-                let [deflection, rate] =
-                    [0, 1].map(|what| trial[what][coupling] - sight.points[END][what][coupling]);
-                let spring = self.lines[END][coupling].spring;
+            self.compare_lines(at.0.step, sight);
+        } else {
+            self.compare_laws(task, at, pieces, sight);
+        }
+        exchange.exert_missing(influences, &self.missing, &mut sight.drift);
+        if straight {
+            // From the drift alone: differences of forces would leave their rounding.
+            let drift = sight.drift.iter().zip(&self.lines);
+            for (change, ([deflection, rate], lines)) in self.change.iter_mut().zip(drift) {
+                let spring = lines[END].spring;
                 *change = spring.stiffness * deflection + spring.damping * rate;
             }
         } else {
-            let at = instant(trial, span.end, slow);
+            let [deflection, rate] = &sight.points[END];
+            for (coupling, drift) in sight.drift.iter().enumerate() {
+                sight.trial[0][coupling] = deflection[coupling] + drift[0];
+                sight.trial[1][coupling] = rate[coupling] + drift[1];
+            }
+            let (span, slow) = at;
+            let at = instant(&sight.trial, span.end, slow);
             task.forcing.forces_into(at, pieces, &mut self.change);
             self.evaluations += 1;
             for (change, forces) in self.change.iter_mut().zip(&sight.forces) {
                 *change -= forces[NODES - 1];
+            }
+        }
+    }
+
+    /// The forces on the lines at the checks, less those of the cubics.
+    fn compare_lines(&mut self, step: f64, sight: &Sight) {
+        let all = self.missing.iter_mut().zip(&self.lines).zip(&sight.forces);
+        for (coupling, ((missing, lines), forces)) in all.enumerate() {
+            *missing = core::array::from_fn(|check| {
+                let [deflection, rate] = sight.at_check(check, coupling, step);
+                let force = lines[POINTS + check].at(deflection, rate);
+                force - dot(forces, &LAGRANGE_AT_CHECKS[check])
+            });
+        }
+    }
+
+    /// The forces of the laws at the checks, less those of the cubics.
+    fn compare_laws<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        (span, slow): (Span, &[f64]),
+        pieces: &[Piece],
+        sight: &mut Sight,
+    ) {
+        for (check, weights) in LAGRANGE_AT_CHECKS.iter().enumerate() {
+            for coupling in 0..self.missing.len() {
+                let seen = sight.at_check(check, coupling, span.step);
+                [sight.trial[0][coupling], sight.trial[1][coupling]] = seen;
+            }
+            let at = instant(&sight.trial, span.at(CHECK_PLACES[check]), slow);
+            task.forcing.forces_into(at, pieces, &mut sight.present);
+            self.evaluations += 1;
+            let forces = sight.present.iter().zip(&sight.forces);
+            for (missing, (present, forces)) in self.missing.iter_mut().zip(forces) {
+                missing[check] = present - dot(forces, weights);
             }
         }
     }
@@ -254,37 +302,37 @@ impl Nodes {
 /// Below this part of the largest force changes are rounding.
 fn least_force(sight: &Sight) -> f64 {
     let sizes = sight.forces.iter().flatten().map(|force| force.abs());
-    ACCURACY.1 * sizes.fold(0.0, f64::max)
+    (ACCURACY.1 * sizes.fold(0.0, f64::max)).max(f64::MIN_POSITIVE)
 }
 
-/// The forces on the lines at one point.
-fn forces_on(lines: &[Line], [deflection, rate]: &[Vec<f64>; 2], forces: &mut [f64]) {
-    let seen = deflection.iter().zip(rate);
-    for ((line, (deflection, rate)), force) in lines.iter().zip(seen).zip(forces) {
-        *force = line.at(*deflection, *rate);
+/// target -= scale x.
+fn subtract(scale: f64, x: &Vector, target: &mut Vector) {
+    for (target, x) in target.iter_mut().zip(x) {
+        *target -= scale * x;
     }
 }
 
-/// x' y.
-fn product(x: &[f64; UNKNOWN], y: &[f64; UNKNOWN]) -> f64 {
-    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+/// Matrix times vector.
+fn product([a, b, c]: &Mutual, x: &Vector) -> Vector {
+    core::array::from_fn(|i| a[i] * x[0] + b[i] * x[1] + c[i] * x[2])
 }
 
 /// The equations of a coupling that nothing answers to.
-const IDENTITY: [[f64; UNKNOWN]; UNKNOWN] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const IDENTITY: Mutual = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// By cofactors.
-fn inverse([a, b, c]: &[[f64; UNKNOWN]; UNKNOWN]) -> [[f64; UNKNOWN]; UNKNOWN] {
-    let cross = |x: &[f64; UNKNOWN], y: &[f64; UNKNOWN]| {
+fn inverse([a, b, c]: &Mutual) -> Mutual {
+    let cross = |x: &Vector, y: &Vector| {
         [
             x[1] * y[2] - x[2] * y[1],
             x[2] * y[0] - x[0] * y[2],
             x[0] * y[1] - x[1] * y[0],
         ]
     };
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let scale = 1.0 / product(a, &columns[0]);
-    core::array::from_fn(|i| core::array::from_fn(|j| scale * columns[j][i]))
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
+    let scale = 1.0 / determinant;
+    core::array::from_fn(|j| core::array::from_fn(|i| scale * rows[i][j]))
 }
 
 #[cfg(test)]
@@ -295,11 +343,10 @@ mod tests {
     fn a_matrix_times_its_inverse_is_the_identity() {
         let matrix = [[1.2, -0.3, 0.1], [0.4, 0.9, -0.2], [0.05, 0.3, 1.1]];
         let inverse = inverse(&matrix);
-        for (i, row) in matrix.iter().enumerate() {
-            for j in 0..3 {
-                let entry: f64 = (0..3).map(|k| row[k] * inverse[k][j]).sum();
+        for (column, unit) in inverse.iter().zip(IDENTITY) {
+            for (found, expected) in product(&matrix, column).into_iter().zip(unit) {
                 // 1e-15: rounding.
-                assert!((entry - IDENTITY[i][j]).abs() < 1e-15);
+                assert!((found - expected).abs() < 1e-15);
             }
         }
     }

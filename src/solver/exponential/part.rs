@@ -12,21 +12,24 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::super::{Block, Harmonic, System};
 use super::block_diagonal::rank;
+use super::lanes::padded;
+use super::polynomials::NODES;
 use crate::linalg::{Decoupling, Group, decouple};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
 const SOFTEST: f64 = 1.0;
 
-/// A block with everything that acts on it and looks at it.
+/// A block with everything that acts on it and looks at it. Behind its 2n states others may follow that stay zero: `len` of
+/// them in all.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
     /// The block's coordinates.
     pub(super) coordinates: core::ops::Range<usize>,
     /// Its first state among those of all parts.
     pub(super) first: usize,
-    /// V: displacements on top, velocities below, 2n x 2n.
+    /// V: displacements on top, velocities below, 2n x len.
     pub(super) shapes: DMatrix<f64>,
-    /// V^-1, 2n x 2n.
+    /// V^-1, len x 2n.
     pub(super) inverse: DMatrix<f64>,
     /// B.
     pub(super) groups: Vec<Group>,
@@ -34,12 +37,16 @@ pub(super) struct Part {
     pub(super) paired: usize,
     /// The couplings whose rows look at the block.
     pub(super) sensors: Vec<usize>,
-    /// Their deflections and rates per eta: for every sensor 2n of both.
+    /// Their deflections and rates per eta: for every sensor len of both.
     pub(super) sensor_rows: Vec<[f64; 2]>,
+    /// The same times S.
+    pub(super) sensor_slopes: Vec<[f64; 2]>,
     /// The couplings whose forces act on the block.
     pub(super) actuators: Vec<usize>,
-    /// V^-1 [0; b] of these, 2n x actuators.
+    /// V^-1 [0; b] of these, len x actuators.
     pub(super) actuator_columns: DMatrix<f64>,
+    /// S times the same.
+    pub(super) actuator_slopes: DMatrix<f64>,
     /// The loads from outside that act on the block: number, and V^-1 [0; column].
     pub(super) loads: Vec<(usize, Vec<f64>)>,
     /// The harmonics that act on the block: number, and V^-1 [0; cosine - i sine].
@@ -73,8 +80,14 @@ impl Part {
         let (sensors, rows) = touching(&|coupling| system.couplings[coupling].row.in_block(index));
         let deflections = shapes.rows(0, n).transpose() * &rows;
         let rates = shapes.rows(n, n).transpose() * &rows;
+        let both = |deflections: &DMatrix<f64>, rates: &DMatrix<f64>| {
+            let both = deflections.iter().zip(rates.iter());
+            both.map(|(d, v)| [*d, *v]).collect()
+        };
+        let slopes = slopes(&groups, shapes.ncols());
         let (actuators, columns) =
             touching(&|coupling| system.couplings[coupling].column.in_block(index));
+        let actuators_in_states = &input * columns;
         let loads = system.loads.iter().map(|column| column.in_block(index));
         let loads = loads.enumerate().filter_map(|(number, column)| {
             let column = in_states(&column?);
@@ -88,12 +101,10 @@ impl Part {
         Part {
             coordinates: block.range(),
             first,
-            sensor_rows: deflections
-                .iter()
-                .zip(&rates)
-                .map(|(d, v)| [*d, *v])
-                .collect(),
-            actuator_columns: &input * columns,
+            sensor_rows: both(&deflections, &rates),
+            sensor_slopes: both(&slopes.tr_mul(&deflections), &slopes.tr_mul(&rates)),
+            actuator_slopes: &slopes * &actuators_in_states,
+            actuator_columns: actuators_in_states,
             loads: loads.collect(),
             harmonics: harmonics.collect(),
             paired: paired(&groups),
@@ -105,7 +116,7 @@ impl Part {
         }
     }
 
-    /// Number of states 2n.
+    /// Number of states.
     pub(super) fn len(&self) -> usize {
         self.shapes.ncols()
     }
@@ -113,6 +124,16 @@ impl Part {
     /// Its states among those of all parts.
     pub(super) fn states(&self) -> core::ops::Range<usize> {
         self.first..self.first + self.len()
+    }
+
+    /// The same in fours.
+    pub(super) fn quads(&self) -> core::ops::Range<usize> {
+        self.first / 4..(self.first + self.len()) / 4
+    }
+
+    /// Number of things that act on it in a step: the forces at every node, and cosine and sine of the harmonics.
+    pub(super) fn columns(&self) -> usize {
+        NODES * self.actuators.len() + 2 * self.harmonics.len()
     }
 }
 
@@ -152,7 +173,8 @@ fn take_apart_block(block: &Block) -> Decoupling {
     decoupled
 }
 
-/// The same with pairs first, then single states, then larger groups.
+/// The same with pairs first, then single states, then larger groups, and states that stay zero up to a whole number of
+/// quads.
 fn in_order(decoupled: Decoupling) -> Decoupling {
     let mut groups = decoupled.groups;
     groups.sort_by_key(rank);
@@ -162,11 +184,26 @@ fn in_order(decoupled: Decoupling) -> Decoupling {
         group.first = states.len();
         states.extend(old..old + group.matrix.nrows());
     }
+    let length = padded(states.len());
+    let shapes = decoupled.shapes.select_columns(&states);
+    let inverse = decoupled.inverse.select_rows(&states);
     Decoupling {
-        shapes: decoupled.shapes.select_columns(&states),
-        inverse: decoupled.inverse.select_rows(&states),
+        shapes: shapes.resize_horizontally(length, 0.0),
+        inverse: inverse.resize_vertically(length, 0.0),
         groups,
     }
+}
+
+/// S: for every group of one or two states its matrix less the mean of its diagonal, along which functions of it change.
+fn slopes(groups: &[Group], states: usize) -> DMatrix<f64> {
+    let mut slopes = DMatrix::zeros(states, states);
+    for group in groups.iter().filter(|group| group.matrix.nrows() == 2) {
+        let mean = 0.5 * group.matrix.trace();
+        let shifted = &group.matrix - DMatrix::identity(2, 2) * mean;
+        let place = (group.first, group.first);
+        slopes.view_mut(place, (2, 2)).copy_from(&shifted);
+    }
+    slopes
 }
 
 /// The states of groups of one or two, without a single one left over.

@@ -1,22 +1,23 @@
 //! The polynomials by which forces are represented over one step, x = s/h from 0 to 1.
 //!
-//! A force is a cubic through four Lobatto nodes. At two further places, near both ends, the true force is compared with it;
-//! the quintic through all six places says what the cubic leaves out. Two places, because forces that pass from one level
-//! to another are odd about the middle of the step.
+//! A force is a cubic through four Lobatto nodes. At two further places, near both ends, it is compared with the force that the
+//! law gives there; the quintic through all six places says what the cubic leaves out. Two places, because forces that pass
+//! from one level to another are odd about the middle of the step. What the couplings see there is interpolated from deflections
+//! and rates at the nodes: eight numbers, so that the motion is known far better than the cubic knows the force.
 
 /// Nodes of the force polynomial.
 pub(super) const NODES: usize = 4;
-/// Places where forces are evaluated: the nodes behind the first one, and two for comparison.
-pub(super) const POINTS: usize = 5;
-/// Where they are in the step: a, b, 1, and a/2, 1 - a/2 with a = (1 - 1/sqrt 5)/2, b = 1 - a.
-pub(super) const PLACES: [f64; POINTS] = [INNER, 1.0 - INNER, 1.0, 0.5 * INNER, 1.0 - 0.5 * INNER];
+/// The nodes behind the first one, whose forces are to be found.
+pub(super) const POINTS: usize = NODES - 1;
+/// Where they are in the step: a, b, 1 with a = (1 - 1/sqrt 5)/2, b = 1 - a.
+pub(super) const PLACES: [f64; POINTS] = [INNER, 1.0 - INNER, 1.0];
 const INNER: f64 = 0.276_393_202_250_021;
 const SQRT_5: f64 = 2.236_067_977_499_79;
-/// The point at the end of the step, and those for comparison.
-pub(super) const END: usize = 2;
-pub(super) const CHECKS: [usize; 2] = [3, 4];
-/// All points in the order of time.
-pub(super) const IN_TIME: [usize; POINTS] = [3, 0, 1, 4, 2];
+/// The point at the end of the step.
+pub(super) const END: usize = POINTS - 1;
+/// Places for comparison: a/2 and 1 - a/2.
+pub(super) const CHECKS: usize = 2;
+pub(super) const CHECK_PLACES: [f64; CHECKS] = [0.5 * INNER, 1.0 - 0.5 * INNER];
 /// l_jk: coefficients of the Lagrange polynomials on the nodes 0, a, b, 1 (a + b = 1, a b = 1/5).
 pub(super) const LAGRANGE: [[f64; NODES]; NODES] = [
     [1.0, -6.0, 10.0, -5.0],
@@ -34,8 +35,8 @@ pub(super) const LAGRANGE: [[f64; NODES]; NODES] = [
     ],
     [0.0, 1.0, -5.0, 5.0],
 ];
-/// l_j at the points for comparison.
-pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; 2] = [
+/// l_j at the places for comparison.
+pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; CHECKS] = [
     [
         0.348_606_797_749_979,
         0.779_508_497_187_473_7,
@@ -49,10 +50,80 @@ pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; 2] = [
         0.348_606_797_749_979,
     ],
 ];
+/// Polynomials of degree seven from values and slopes at the nodes, at the places for comparison.
+pub(super) const HERMITE_AT_CHECKS: [Hermite; CHECKS] = [
+    Hermite {
+        value: [
+            [
+                0.323_061_621_135_924_7,
+                0.607_633_497_187_473_7,
+                0.033_862_254_218_789_43,
+                0.035_442_627_457_812_1,
+            ],
+            [
+                0.016_794_576_808_202_5,
+                -0.083_972_884_041_012_5,
+                -0.019_823_308_900_386_19,
+                -0.002_693_135_621_484_342,
+            ],
+        ],
+        slope: [
+            [
+                -5.070_515_495_046_595,
+                5.307_686_604_609_184,
+                -0.078_584_638_359_499_87,
+                -0.158_586_471_203_089_5,
+            ],
+            [
+                -0.217_879_248_593_736_86,
+                -0.125_870_751_406_263_14,
+                0.079_866_502_812_526_29,
+                0.012_325_849_718_747_37,
+            ],
+        ],
+    },
+    Hermite {
+        value: [
+            [
+                0.035_442_627_457_812_1,
+                0.033_862_254_218_789_43,
+                0.607_633_497_187_473_7,
+                0.323_061_621_135_924_7,
+            ],
+            [
+                0.002_693_135_621_484_342,
+                0.019_823_308_900_386_19,
+                0.083_972_884_041_012_5,
+                -0.016_794_576_808_202_5,
+            ],
+        ],
+        slope: [
+            [
+                0.158_586_471_203_089_5,
+                0.078_584_638_359_499_87,
+                -5.307_686_604_609_184,
+                5.070_515_495_046_595,
+            ],
+            [
+                0.012_325_849_718_747_37,
+                0.079_866_502_812_526_29,
+                -0.125_870_751_406_263_14,
+                -0.217_879_248_593_736_86,
+            ],
+        ],
+    },
+];
+
+/// What a polynomial's value and slope at one place take from its values and from its slopes at the nodes.
+pub(super) struct Hermite {
+    pub(super) value: [[f64; NODES]; 2],
+    pub(super) slope: [[f64; NODES]; 2],
+}
+
 /// Powers of s/h in use.
 pub(super) const POWERS: usize = 6;
-/// The quintics that are one at one point for comparison and zero at the other and at the nodes.
-pub(super) const BUBBLES: [[f64; POWERS]; 2] = [
+/// The quintics that are one at one place for comparison and zero at the other and at the nodes.
+pub(super) const BUBBLES: [[f64; POWERS]; CHECKS] = [
     [
         0.0,
         24.721_359_549_995_794,
@@ -84,7 +155,7 @@ mod tests {
     #[test]
     fn polynomials_are_one_at_their_own_place_and_zero_at_the_others() {
         let nodes = [0.0, PLACES[0], PLACES[1], PLACES[2]];
-        let checks = CHECKS.map(|point| PLACES[point]);
+        let checks = CHECK_PLACES;
         // 1e-12: rounding of coefficients of some hundreds.
         let is = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
         for (j, polynomial) in LAGRANGE.iter().enumerate() {
@@ -102,6 +173,24 @@ mod tests {
             for node in nodes {
                 assert!(is(value(polynomial, node), 0.0));
             }
+        }
+    }
+
+    #[test]
+    fn interpolation_at_the_checks_is_exact_for_polynomials_of_degree_seven() {
+        let nodes = [0.0, PLACES[0], PLACES[1], PLACES[2]];
+        let polynomial = [0.7, -1.0, 0.5, 2.0, -3.0, 1.5, 0.3, -0.8];
+        let slope: Vec<f64> = (1..8).map(|k| k as f64 * polynomial[k]).collect();
+        let from = |[of_values, of_slopes]: [[f64; NODES]; 2]| -> f64 {
+            let terms = nodes.iter().zip(of_values.iter().zip(of_slopes));
+            terms
+                .map(|(&node, (v, s))| v * value(&polynomial, node) + s * value(&slope, node))
+                .sum()
+        };
+        for (place, hermite) in CHECK_PLACES.into_iter().zip(&HERMITE_AT_CHECKS) {
+            // 1e-13: rounding of weights up to 5.
+            assert!((from(hermite.value) - value(&polynomial, place)).abs() < 1e-13);
+            assert!((from(hermite.slope) - value(&slope, place)).abs() < 1e-13);
         }
     }
 }

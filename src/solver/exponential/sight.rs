@@ -2,7 +2,8 @@
 
 use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
-use super::polynomials::{END, NODES, POINTS};
+use super::polynomials::{END, HERMITE_AT_CHECKS, NODES, POINTS};
+use crate::linalg::dot;
 
 /// How far the deflection of one coupling has moved from the start at all points of a step, then its rate.
 pub(super) type Readings = [f64; 2 * POINTS];
@@ -18,8 +19,10 @@ pub(super) struct Sight {
     moved: Vec<Readings>,
     /// Deflections and rates at the points, as laws look at them.
     pub(super) points: [[Vec<f64>; 2]; POINTS],
-    /// Between two points, or at the end as it would be with what is missing in the forces.
+    /// Deflections and rates elsewhere.
     pub(super) trial: [Vec<f64>; 2],
+    /// How deflections and rates at the end would change with what the cubics leave out of the forces.
+    pub(super) drift: Vec<[f64; 2]>,
     /// Forces at the nodes.
     pub(super) forces: Vec<[f64; NODES]>,
     /// Forces at one instant.
@@ -36,6 +39,7 @@ impl Sight {
             moved: readings,
             points: core::array::from_fn(|_| pair()),
             trial: pair(),
+            drift: vec![[0.0; 2]; couplings],
             forces: vec![[0.0; NODES]; couplings],
             present: vec![0.0; couplings],
         }
@@ -65,6 +69,23 @@ impl Sight {
         self.moved[coupling][point]
     }
 
+    /// Deflection and rate of a coupling at a place for comparison, in a step of this length.
+    pub(super) fn at_check(&self, check: usize, coupling: usize, step: f64) -> [f64; 2] {
+        let [d0, v0] = [0, 1].map(|what| self.start[what][coupling]);
+        let [d1, d2, d3, v1, v2, v3] = self.moved[coupling];
+        let slopes = [v0, v0 + v1, v0 + v2, v0 + v3];
+        let hermite = &HERMITE_AT_CHECKS[check];
+        // Movements, because slopes are differences: the start has not moved.
+        let along = |[of_values, of_slopes]: &[[f64; NODES]; 2], per_slope: f64| {
+            let values = of_values[1] * d1 + of_values[2] * d2 + of_values[3] * d3;
+            values + per_slope * dot(of_slopes, &slopes)
+        };
+        [
+            d0 + along(&hermite.value, step),
+            along(&hermite.slope, step) / step,
+        ]
+    }
+
     /// The step ends: the end becomes the start.
     pub(super) fn move_on(&mut self) {
         copy(&self.points[END], &mut self.start);
@@ -86,16 +107,20 @@ impl Sight {
     }
 }
 
-/// readings += rows' values: one row per value.
+/// readings += rows' values: one row per value, an even number of them.
+#[inline(always)]
 pub(super) fn accumulate(readings: &mut Readings, rows: &[Readings], values: &[f64]) {
-    // In a local array the sums stay in registers.
-    let mut sums = *readings;
-    for (row, value) in rows.iter().zip(values) {
-        for (sum, entry) in sums.iter_mut().zip(row) {
-            *sum += value * entry;
+    // Two sums side by side, so that one addition need not wait for the last.
+    let (mut even, mut odd) = (*readings, [0.0; 2 * POINTS]);
+    for (rows, values) in rows.chunks_exact(2).zip(values.chunks_exact(2)) {
+        for i in 0..2 * POINTS {
+            even[i] += values[0] * rows[0][i];
+            odd[i] += values[1] * rows[1][i];
         }
     }
-    *readings = sums;
+    for i in 0..2 * POINTS {
+        readings[i] = even[i] + odd[i];
+    }
 }
 
 /// Deflection and rate of a sensor in these states.

@@ -36,9 +36,17 @@ impl Fmu {
     /// Builds the library, puts the model into it and loads it.
     pub fn of(text: &str) -> Result<Fmu, String> {
         let words = |error: &dyn core::fmt::Display| error.to_string();
-        let library = fmu_build::build_native_library(&workspace(), "geartrain");
-        let library = library.map_err(|error| words(&error))?;
-        let empty = std::fs::read(&library).map_err(|error| words(&error))?;
+        let workspace = workspace();
+        let builder = fmu_build::Builder {
+            workspace: &workspace,
+            package: "geartrain",
+            zig: None,
+        };
+        let library = builder.native().map_err(|error| words(&error))?;
+        let [library] = &library.files[..] else {
+            return Err("a library of one file is expected".to_string());
+        };
+        let empty = std::fs::read(library).map_err(|error| words(&error))?;
         let package = Package::of(text).map_err(|error| words(&error))?;
         let full = package.implant(empty).map_err(|error| words(&error))?;
         let path = own_path(library.extension().unwrap_or_default());

@@ -1,9 +1,11 @@
 """The packed FMUs in FMPy, as a user runs them."""
 
+import os
 import shutil
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import fmpy
 import numpy as np
@@ -45,6 +47,18 @@ def test_the_reader_of_model_files_stays_out_of_the_library(three_stage):
         library = archive.read("binaries/linux64/three_stage.so")
     for words in [b"unknown key; known here", b"the parentheses do not match", b"exchange rates are not available", b"not valid TOML"]:
         assert words not in library
+
+
+def test_the_file_says_nothing_about_where_and_when_it_was_packed(three_stage):
+    with zipfile.ZipFile(three_stage) as packed:
+        dates = {entry.date_time for entry in packed.infolist()}
+        library = packed.read("binaries/linux64/three_stage.so")
+    assert dates == {(1980, 1, 1, 0, 0, 0)}
+    # Places in source files stand in the library for panics: they begin at the package or the registry.
+    crates = os.environ.get("CARGO_HOME", Path.home() / ".cargo")
+    for folder in ROOT, crates:
+        assert str(folder).encode() not in library
+    assert b"/crates/nalgebra-" in library
 
 
 def test_committed_model_description_is_up_to_date(three_stage):

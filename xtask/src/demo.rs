@@ -13,7 +13,7 @@ pub fn command() -> Result<(), String> {
     let out = workspace.join("target/demo");
     let inspection = out.join("inspection.json");
     shell::write(&inspection, inspect::as_json(&model)?.as_bytes())?;
-    let fmus = pack::pack(&[model], &workspace.join("target/fmu"))?;
+    let fmus = pack::pack(&[model], &workspace.join("target/fmu"), &[])?;
     let environment = Environment::prepare("python", Path::new("examples/requirements.txt"))?;
     shell::run(
         environment

@@ -6,6 +6,9 @@ use std::process::Command;
 use crate::python::Environment;
 use crate::{pack, workspace};
 
+/// The importers' packages.
+pub const REQUIREMENTS: &str = "tests/importers/requirements.txt";
+
 /// Packed models and the Python environment.
 pub struct Importers {
     /// The folder of the packed models.
@@ -19,9 +22,8 @@ impl Importers {
     pub fn prepare() -> Result<Importers, String> {
         let workspace = workspace();
         let fmus = workspace.join("target/fmu");
-        pack::pack(&models(&workspace)?, &fmus)?;
-        let environment =
-            Environment::prepare("test-python", Path::new("tests/importers/requirements.txt"))?;
+        pack::pack(&models(&workspace)?, &fmus, &[])?;
+        let environment = Environment::prepare("test-python", Path::new(REQUIREMENTS))?;
         Ok(Importers { fmus, environment })
     }
 
@@ -39,7 +41,7 @@ impl Importers {
 }
 
 /// The model files that the importers run.
-fn models(workspace: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn models(workspace: &Path) -> Result<Vec<PathBuf>, String> {
     let mut models = Vec::new();
     for folder in ["examples", "tests/models"] {
         let folder = workspace.join(folder);

@@ -8,8 +8,10 @@ mod fuzz;
 mod golden;
 mod importers;
 mod inspect;
+mod merge;
 mod new;
 mod pack;
+mod platforms;
 mod python;
 mod shell;
 mod test;
@@ -22,7 +24,11 @@ const HELP: &str = "\
 cargo xtask <command>
 
   new NAME                        write NAME.toml, a commented two-shaft reducer to start from
-  fmu MODEL.toml... [--out DIR]   pack FMUs (default folder: target/fmu)
+  fmu MODEL.toml... [--platform linux64,win64,darwin64,aarch64-linux] [--out DIR]
+                                  pack FMUs for this machine, or to be given away for the platforms named
+                                  (default folder: target/fmu)
+  merge A.fmu B.fmu... [--out DIR]
+                                  one FMU from those of the same model, packed on different machines
   inspect MODEL.toml [--html [--out DIR] | --format json] [--speeds FROM:TO:COUNT[:x|rpm|rad/s]]
                                   what a model file describes: frequencies, critical speeds, whether the
                                   modes kept are enough, communication step; --html: one page with pictures
@@ -30,6 +36,7 @@ cargo xtask <command>
   demo                            pack examples/three_stage.toml, run the paper's four cases through FMPy, write
                                   Table I, figures 3 to 16 of the paper and CSV files to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
+  platforms                       FMUs for all platforms, run on a Debian 11, under wine and qemu and compared to the bit
   fuzz [--seconds N] [--seed S]   random calls, states and model files for N seconds (60); a failure names its seed
   bench [solvers|masters|start|chains|accuracy]... [--record]
                                   how fast it is: our solvers against others at the same error, a communication
@@ -45,9 +52,11 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["fmu", rest @ ..] => pack::command(rest),
         ["new", rest @ ..] => new::command(rest),
+        ["merge", rest @ ..] => merge::command(rest),
         ["inspect", rest @ ..] => inspect::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),
+        ["platforms"] => platforms::command(),
         ["fuzz", rest @ ..] => fuzz::command(rest),
         ["bench", parts @ ..] => bench::command(parts),
         ["golden"] => golden::command(),

@@ -2,15 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use fmu_build::{Binary, Fmu, Platform, build_native_library};
+use fmu_build::{Binary, Builder, Fmu, Library, Platform, linked_crates};
 use geartrain::config::Problem;
 use geartrain::package::{Package, PackageError};
 
+use crate::python::Environment;
 use crate::{shell, workspace};
+
+/// The linker for other platforms, as Python packages.
+pub const ZIG: &str = "fmu-build/requirements.txt";
 
 /// Packs the files named in the arguments.
 pub fn command(arguments: &[&str]) -> Result<(), String> {
     let (mut models, mut out) = (Vec::new(), workspace().join("target/fmu"));
+    let mut platforms = Vec::new();
     let mut words = arguments.iter();
     while let Some(&word) = words.next() {
         match word {
@@ -20,6 +25,7 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
                     .map(PathBuf::from)
                     .ok_or("--out needs a folder")?;
             }
+            "--platform" => platforms = named(words.next().copied().unwrap_or_default())?,
             option if option.starts_with("--") => return Err(format!("unknown option {option}")),
             model => models.push(PathBuf::from(model)),
         }
@@ -27,15 +33,32 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
     if models.is_empty() {
         return Err("name at least one model file: cargo xtask fmu MODEL.toml".to_string());
     }
-    for fmu in pack(&models, &out)? {
+    for fmu in pack(&models, &out, &platforms)? {
         println!("{}", fmu.display());
     }
     Ok(())
 }
 
+/// The platforms of a list such as `linux64,win64`, each once.
+fn named(list: &str) -> Result<Vec<Platform>, String> {
+    let known = || Platform::ALL.map(Platform::folder).join(", ");
+    let platforms = list.split(',').map(|name| {
+        Platform::named(name.trim())
+            .ok_or_else(|| format!("--platform: \"{name}\" is none of {}", known()))
+    });
+    let mut platforms = platforms.collect::<Result<Vec<Platform>, String>>()?;
+    platforms.sort();
+    platforms.dedup();
+    Ok(platforms)
+}
+
 /// Packs model files into `out` and gives the paths of the FMUs. All files are checked before the first
-/// one is packed.
-pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
+/// one is packed. The FMUs run on the platforms, or on this machine where none are named.
+pub fn pack(
+    models: &[PathBuf],
+    out: &Path,
+    platforms: &[Platform],
+) -> Result<Vec<PathBuf>, String> {
     let packages: Vec<Result<(Package, &PathBuf), String>> = models
         .iter()
         .map(|path| describe(path).map(|package| (package, path)))
@@ -63,29 +86,63 @@ pub fn pack(models: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, String> {
             twice.1
         ));
     }
-    let platform = Platform::native()
-        .ok_or("FMI 2.0 has no name for this platform; FMUs cannot be packed on it")?;
-    let library =
-        build_native_library(&workspace(), "geartrain").map_err(|error| error.to_string())?;
-    let library =
-        std::fs::read(&library).map_err(|error| format!("{}: {error}", library.display()))?;
+    let mut libraries = Vec::new();
+    for library in build(platforms)? {
+        let files = library.read().map_err(|error| error.to_string())?;
+        libraries.push((library.platform, files));
+    }
+    let licenses = licenses()?;
     let mut written = Vec::new();
     for (package, model) in packages.into_iter().flatten() {
-        let source = shell::read(model)?;
-        let bytes = package
-            .implant(library.clone())
-            .map_err(|error| error.to_string())?;
+        let mut documents = licenses.clone();
+        documents.push(document("index.html", package.documentation.clone()));
+        documents.push(document("model.toml", shell::read(model)?));
+        let binaries = libraries.iter();
+        let binaries = binaries.map(|(platform, files)| binary(&package, *platform, files));
         let fmu = Fmu {
-            binaries: vec![Binary { platform, bytes }],
-            documents: documents(&package, &source)?,
+            binaries: binaries.collect::<Result<_, _>>()?,
+            documents,
             model_identifier: package.model_identifier.clone(),
             model_description: package.model_description,
         };
         let path = out.join(format!("{}.fmu", package.model_identifier));
-        shell::write(&path, &fmu.to_bytes().map_err(|error| error.to_string())?)?;
+        let bytes = fmu.into_archive().to_bytes();
+        shell::write(&path, &bytes.map_err(|error| error.to_string())?)?;
         written.push(path);
     }
     Ok(written)
+}
+
+/// Builds the library for each platform, or for this machine as every build here is.
+fn build(platforms: &[Platform]) -> Result<Vec<Library>, String> {
+    let zig = if platforms.iter().any(|platform| platform.needs_zig()) {
+        Some(Environment::prepare("zig-python", Path::new(ZIG))?.programs())
+    } else {
+        None
+    };
+    let workspace = workspace();
+    let builder = Builder {
+        workspace: &workspace,
+        package: "geartrain",
+        zig: zig.as_deref(),
+    };
+    let libraries = if platforms.is_empty() {
+        builder.native().map(|library| vec![library])
+    } else {
+        let portable = platforms.iter();
+        portable
+            .map(|platform| builder.portable(*platform))
+            .collect()
+    };
+    libraries.map_err(|error| error.to_string())
+}
+
+/// The library with the model in it; each processor's part carries the model.
+fn binary(package: &Package, platform: Platform, files: &[Vec<u8>]) -> Result<Binary, String> {
+    let slices = files.iter().map(|file| package.implant(file.clone()));
+    let slices = slices.collect::<Result<_, _>>();
+    let slices = slices.map_err(|error| error.to_string())?;
+    Binary::of(platform, slices).map_err(|error| error.to_string())
 }
 
 /// Reads and checks a model file; warnings are printed, problems are the error.
@@ -114,26 +171,21 @@ pub fn located(path: &Path, text: &str, kind: &str, problems: &[Problem]) -> Str
     problems.iter().map(shown).collect::<Vec<_>>().join("\n")
 }
 
-fn documents(package: &Package, source: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
-    let mut documents = vec![
-        (
-            "documentation/index.html".to_string(),
-            package.documentation.clone().into_bytes(),
-        ),
-        (
-            "documentation/model.toml".to_string(),
-            source.as_bytes().to_vec(),
-        ),
-    ];
+/// Our own licence, and those of what is linked into the library.
+fn licenses() -> Result<Vec<(String, Vec<u8>)>, String> {
     let mut license =
         String::from("geartrain is licensed under MIT or Apache-2.0, at your choice.\n");
     for file in ["LICENSE-MIT", "LICENSE-APACHE"] {
         license.push_str("\n\n");
         license.push_str(&shell::read(&workspace().join(file))?);
     }
-    documents.push((
-        "documentation/licenses/license.txt".to_string(),
-        license.into_bytes(),
-    ));
-    Ok(documents)
+    let linked = linked_crates(&workspace(), "geartrain")?;
+    Ok(vec![
+        document("licenses/license.txt", license),
+        document("licenses/linked-crates.txt", linked),
+    ])
+}
+
+fn document(name: &str, text: String) -> (String, Vec<u8>) {
+    (format!("documentation/{name}"), text.into_bytes())
 }

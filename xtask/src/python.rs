@@ -49,12 +49,13 @@ impl Environment {
 
     /// The environment's interpreter, to be given arguments.
     pub fn python(&self) -> Command {
-        let program = if cfg!(windows) {
-            "Scripts/python.exe"
-        } else {
-            "bin/python"
-        };
-        Command::new(self.folder.join(program))
+        Command::new(self.programs().join("python"))
+    }
+
+    /// The folder of the environment's programs.
+    pub fn programs(&self) -> PathBuf {
+        self.folder
+            .join(if cfg!(windows) { "Scripts" } else { "bin" })
     }
 
     /// Where the environment's packages are.

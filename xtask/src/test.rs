@@ -35,6 +35,8 @@ pub fn command() -> Result<(), String> {
             "--quiet",
             "--package",
             "importers",
+            "--package",
+            "platforms",
             "--all-targets",
             "--",
             "--deny",

@@ -5,13 +5,13 @@
 
 use core::fmt;
 
-use crate::config::Problem;
+use crate::config::{Files, Problem};
 use crate::description::{documentation_page, model_description};
 use crate::fmi2::payload::{ImplantError, implant};
 use crate::interface::Interface;
-use crate::model::{Inputs, ModalModel, equilibrium};
+use crate::model::{ModalModel, equilibrium};
 use crate::rotor::ReductionError;
-use crate::train::{GearTrain, Loaded, load};
+use crate::train::{GearTrain, Loaded, load_beside};
 
 /// The parts of an FMU that depend on the model.
 #[derive(Debug, Clone)]
@@ -24,6 +24,8 @@ pub struct Package {
     pub documentation: String,
     /// What is allowed but probably not meant.
     pub warnings: Vec<Problem>,
+    /// The files that the model file names, by their paths from it.
+    pub named_files: Vec<String>,
     /// The model in the form that the library carries.
     model: Vec<u8>,
 }
@@ -38,22 +40,25 @@ pub enum PackageError {
 }
 
 impl Package {
-    /// Reads, validates and describes a model.
-    pub fn of(text: &str) -> Result<Package, PackageError> {
+    /// Reads, validates and describes a model; `files` gives the texts of files that it names.
+    pub fn of(text: &str, files: Files<'_>) -> Result<Package, PackageError> {
         let Loaded {
             config,
             train,
             mut warnings,
             lines,
-        } = load(text).map_err(PackageError::Invalid)?;
+        } = load_beside(text, files).map_err(PackageError::Invalid)?;
         let model = ModalModel::assemble(&train, None).map_err(PackageError::Irreducible)?;
         let interface = Interface::of(&config, &train, &model);
         let doubtful = contradicting_flanks(&train, &model).into_iter();
         warnings.extend(doubtful.map(|warning| Problem {
-            spot: lines.find(&warning.key),
+            spot: lines.find(None, &warning.key),
             ..warning
         }));
+        let housing = config.housing.iter();
+        let named = housing.flat_map(|housing| housing.file.iter().chain(&housing.modes_file));
         Ok(Package {
+            named_files: named.cloned().collect(),
             model_description: model_description(&config, &interface),
             documentation: documentation_page(&config, &train, &model, &interface),
             warnings,
@@ -76,8 +81,9 @@ fn contradicting_flanks(train: &GearTrain, model: &ModalModel) -> Vec<Problem> {
         .iter()
         .flat_map(|rotor| &rotor.torques)
         .map(|torque| torque.value);
-    let inputs = Inputs::at_rest(torques.collect(), model.bearings().count());
+    let inputs = model.inputs_at_rest(torques.collect());
     let problem = |key: String, place: String, message: String| Problem {
+        file: None,
         spot: None,
         key,
         place,

@@ -8,18 +8,21 @@ use geartrain::config::Config;
 use geartrain::interface::{Causality, Interface, Unit};
 use geartrain::slave::Slave;
 use support::slave::{initializing, read, references};
-use support::{case_four, compound, valid};
+use support::{case_four, compound, model_file, valid};
 
 /// Bearings with tables over the speed, some of them without a word on cross-coupling.
 fn journal() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/journal.toml");
-    std::fs::read_to_string(path).expect("the model is part of the repository")
+    model_file("journal.toml")
 }
 
 /// Balls, rollers and rubber: radial forces beside springs without cross-coupling.
 fn rolling() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/rolling.toml");
-    std::fs::read_to_string(path).expect("the model is part of the repository")
+    model_file("rolling.toml")
+}
+
+/// A housing alone, and a train in it with a bearing on the ground: forces act on a foot of it.
+fn housings() -> [String; 2] {
+    ["box.toml", "boxed.toml"].map(model_file)
 }
 
 fn starting(text: &str) -> (Slave, Interface, Config) {
@@ -41,7 +44,10 @@ fn let_every_coefficient_count(slave: &mut Slave, interface: &Interface) {
 
 #[test]
 fn outputs_depend_on_the_inputs_that_the_table_names_and_on_no_others() {
-    for text in [case_four(), journal(), rolling()] {
+    for text in [case_four(), journal(), rolling()]
+        .into_iter()
+        .chain(housings())
+    {
         let (mut slave, interface, config) = starting(&text);
         let_every_coefficient_count(&mut slave, &interface);
         slave.exit_initialization().unwrap();

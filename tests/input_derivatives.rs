@@ -34,8 +34,7 @@ fn teeth_follow_a_torque_that_grows_linearly() {
     let exact = force / 1e8 * (end - (frequency * end).sin() / frequency);
     for solver in SOLVERS {
         let mut run = Run::new(assembled(&text), vec![0.0, 0.0], solver, 1e-8);
-        let bearings = run.inputs.bases.len();
-        let ramp = Inputs::at_rest(vec![rate, 0.0], bearings);
+        let ramp = run.model.inputs_at_rest(vec![rate, 0.0]);
         run.advance_along(end, Some(&ramp));
         let found = run.motion().mesh_deflection(0);
         // 1e-6: the tolerance over the 1.2 vibrations of the run, and margin.
@@ -60,7 +59,7 @@ fn a_rotor_turns_faster_with_the_square_of_time_under_a_growing_torque() {
     let reduced = one + 0.25 * two;
     for solver in SOLVERS {
         let mut run = Run::new(assembled(&text), vec![0.0, 0.0], solver, 1e-7);
-        let ramp = Inputs::at_rest(vec![200.0, 0.0], run.inputs.bases.len());
+        let ramp = run.model.inputs_at_rest(vec![200.0, 0.0]);
         run.advance_along(0.25, Some(&ramp));
         let exact = 200.0 * 0.25 * 0.25 / (2.0 * reduced);
         let found = run.motion().speed(0);
@@ -123,6 +122,7 @@ fn forces(solver: SolverChoice, step: f64, linear: Option<bool>) -> [Vec<f64>; 2
         let rate = Inputs {
             torques: vec![0.0; torques],
             bases: vec![secant(now, next, step); bearings],
+            forces: Vec::new(),
         };
         let rate = (linear == Some(true)).then_some(&rate);
         run.advance_along(step * (index + 1) as f64, rate);

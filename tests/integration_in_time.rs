@@ -133,7 +133,7 @@ fn compare_with_steady_state(
     let quarter = std::f64::consts::FRAC_PI_2 / frequency;
     let (cosine, sine) = (load_at(0.0), load_at(quarter));
     let amplitude = support::steady_amplitude(&model, frequency, &cosine, &sine);
-    let inputs = Inputs::at_rest(vec![0.0; model.torques().count()], model.bearings().count());
+    let inputs = model.inputs_at_rest(vec![0.0; model.torques().count()]);
     let mut simulation = set_going(model.clone(), inputs, Start::Rest, 1e-6);
     simulation.advance_to(2.5).unwrap();
     let row = observed(&model).to_dense(model.system.size);
@@ -196,6 +196,7 @@ fn gearbox_vibration_response_settles_on_the_analytic_steady_state() {
             let inputs = Inputs {
                 torques: vec![0.0; 2],
                 bases: vec![base; model.bearings().count()],
+                forces: Vec::new(),
             };
             held_load(&model, &inputs)
         },

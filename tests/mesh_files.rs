@@ -2,7 +2,7 @@
 
 mod support;
 
-use geartrain::train::load;
+use geartrain::train::{load, no_files};
 use support::{gear_pair, star, three_stage, valid};
 
 const LAW: &str = "law = \"constant\"\nmean = 4e8";
@@ -366,7 +366,8 @@ fn loops_whose_centres_do_not_close_are_warned_of() {
 #[test]
 fn flanks_that_the_torques_pull_apart_are_warned_of_in_rings_too() {
     let package =
-        geartrain::package::Package::of(&star().replace("flank = -1", "flank = 1")).unwrap();
+        geartrain::package::Package::of(&star().replace("flank = -1", "flank = 1"), &no_files)
+            .unwrap();
     let found: Vec<String> = package.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(found.len(), 2, "{found:#?}");
     for (message, mesh) in found.iter().zip(["ring1", "ring2"]) {

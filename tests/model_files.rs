@@ -5,7 +5,7 @@ mod support;
 use std::panic::catch_unwind;
 
 use geartrain::config::Problem;
-use geartrain::train::load;
+use geartrain::train::{load, no_files};
 use support::{gear_pair, three_stage};
 
 const LAW: &str = "law = \"constant\"\nmean = 4e8";
@@ -282,8 +282,11 @@ fn torques_that_drift_and_flanks_that_contradict_are_warnings() {
         warnings.len() == 1 && warnings[0].message.contains("drift"),
         "{warnings:?}"
     );
-    let package =
-        geartrain::package::Package::of(&three_stage().replace("flank = 1", "flank = -1")).unwrap();
+    let package = geartrain::package::Package::of(
+        &three_stage().replace("flank = 1", "flank = -1"),
+        &no_files,
+    )
+    .unwrap();
     assert!(
         package
             .warnings

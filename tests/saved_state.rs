@@ -6,7 +6,7 @@ mod support;
 
 use geartrain::slave::{Experiment, SavedState, Slave};
 use support::slave::{born, read, stepping};
-use support::{case_four, three_stage};
+use support::{case_four, model_file, three_stage};
 
 /// Contact losses, back flanks, changing speed: every kind of memory a solution can have.
 fn free_and_rattling() -> String {
@@ -23,12 +23,15 @@ fn newmark(text: &str) -> String {
     text.replace("[simulation]", "[simulation]\nsolver = \"newmark\"")
 }
 
-fn models() -> [String; 4] {
+fn models() -> [String; 7] {
     [
         case_four(),
         free_and_rattling(),
         newmark(&case_four()),
         newmark(&free_and_rattling()),
+        model_file("box.toml"),
+        model_file("boxed.toml"),
+        model_file("boxed_journal.toml"),
     ]
 }
 
@@ -38,7 +41,9 @@ fn running(text: &str) -> Slave {
 
 /// The bits of all variables after each of the next steps.
 fn steps(slave: &mut Slave, from: u32, count: u32) -> Vec<u64> {
-    let references: Vec<u32> = (0..200).collect();
+    // As many as there are, up to 200.
+    let exists = |reference: &u32| slave.get_real(&[*reference], &mut [0.0]).is_ok();
+    let references: Vec<u32> = (0..200).take_while(exists).collect();
     let mut values = vec![0.0; references.len()];
     let mut bits = Vec::new();
     for index in from..from + count {

@@ -166,6 +166,7 @@ fn a_uniform_shift_of_all_supports_gives_no_force() {
     let inputs = Inputs {
         torques: vec![0.0; 2],
         bases: vec![shift; model.bearings().count()],
+        forces: Vec::new(),
     };
     let simulation = set_going(model, inputs, Start::Equilibrium, 1e-4);
     let motion = simulation.motion();
@@ -242,6 +243,7 @@ fn unbalanced_torque_is_carried_by_rigid_acceleration() {
     let inputs = Inputs {
         torques: vec![400.0, 0.0],
         bases: vec![BaseMotion::default(); 4],
+        forces: Vec::new(),
     };
     let found = equilibrium(&model, &inputs).unwrap();
     assert!(

@@ -5,7 +5,7 @@ mod support;
 use core::f64::consts::PI;
 
 use geartrain::config::{Config, Problem, read};
-use geartrain::train::load;
+use geartrain::train::{load, no_files};
 use support::{started, three_stage};
 
 /// The example that is written with units.
@@ -15,7 +15,7 @@ fn two_shaft() -> String {
 }
 
 fn config(text: &str) -> Config {
-    let reading = read(text);
+    let reading = read(text, &no_files);
     assert!(reading.problems.is_empty(), "{:#?}", reading.problems);
     reading.config.unwrap()
 }
@@ -44,7 +44,10 @@ fn value_of(key: &str, text: &str) -> Result<f64, String> {
         "lateral_damping_ratio" => ("", |config| config.rotors[0].lateral_damping_ratio),
         other => panic!("no place for {other}"),
     };
-    let reading = read(&format!("[[rotor]]\n{table}{key} = \"{text}\"\n"));
+    let reading = read(
+        &format!("[[rotor]]\n{table}{key} = \"{text}\"\n"),
+        &no_files,
+    );
     let value = read_back(reading.config.as_ref().unwrap());
     let about = |problem: &&Problem| problem.message.contains('"') || value.is_nan();
     let own = reading
@@ -184,7 +187,7 @@ fn what_is_no_quantity_gets_a_message_that_says_what_to_write() {
 fn lists_and_inline_tables_take_units_and_the_wrong_entry_is_marked() {
     let text = "[[rotor]]\n[[rotor.bow]]\npositions = [\"0 mm\", 0.5, \"1 m\"]\namplitudes = [\"1 um\", \"2 um\", \"3 s\"]\n\
                 [[rotor.bearing]]\nstiffness = { xx = \"1e5 N/mm\", xy = \"1 N s/m\" }\n";
-    let reading = read(text);
+    let reading = read(text, &no_files);
     let config = reading.config.unwrap();
     assert_eq!(config.rotors[0].bows[0].positions, [0.0, 0.5, 1.0]);
     assert_eq!(config.rotors[0].bows[0].amplitudes[..2], [1e-6, 2e-6]);
@@ -210,7 +213,9 @@ fn a_hertzian_coefficient_follows_its_exponent() {
         )
     };
     let law = |exponent: &str, coefficient: &str| {
-        let config = read(&text(exponent, coefficient)).config.unwrap();
+        let config = read(&text(exponent, coefficient), &no_files)
+            .config
+            .unwrap();
         let law = config.rotors[0].bearings[0].nonlinear.unwrap();
         (law.exponent, law.coefficient)
     };

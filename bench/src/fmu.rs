@@ -11,6 +11,7 @@ use geartrain::fmi2::abi::{CO_SIMULATION, CallbackFunctions, Component, Status};
 use geartrain::interface::{Interface, Quantity};
 use geartrain::model::ModalModel;
 use geartrain::package::Package;
+use geartrain::train::no_files;
 use geartrain::train::{Loaded, load};
 use libloading::Library;
 
@@ -47,7 +48,7 @@ impl Fmu {
             return Err("a library of one file is expected".to_string());
         };
         let empty = std::fs::read(library).map_err(|error| words(&error))?;
-        let package = Package::of(text).map_err(|error| words(&error))?;
+        let package = Package::of(text, &no_files).map_err(|error| words(&error))?;
         let full = package.implant(empty).map_err(|error| words(&error))?;
         let path = own_path(library.extension().unwrap_or_default());
         let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);

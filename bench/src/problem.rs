@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use geartrain::config;
-use geartrain::model::{Inputs, ModalModel};
+use geartrain::model::ModalModel;
 use geartrain::simulation::Simulation;
 use geartrain::train::{GearTrain, load};
 
@@ -44,7 +44,7 @@ impl Problem {
         let simulation = started(&train, &settings, 1e-8);
         let interval = |index: u32| span * f64::from(index) / f64::from(samples);
         let mut problem = Problem {
-            equations: Equations::of(&train, simulation.model(), &inputs(&train).torques),
+            equations: Equations::of(&train, simulation.model(), &torques(&train)),
             start: state(&simulation),
             times: (1..=samples).map(interval).collect(),
             scale: Vec::new(),
@@ -91,11 +91,10 @@ pub fn loaded(text: &str) -> (GearTrain, config::Simulation) {
     (loaded.train, loaded.config.simulation)
 }
 
-/// The torques of the file, no gearbox motion.
-pub fn inputs(train: &GearTrain) -> Inputs {
+/// The torques of the file.
+pub fn torques(train: &GearTrain) -> Vec<f64> {
     let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
-    let bearings = train.rotors.iter().map(|rotor| rotor.bearings.len()).sum();
-    Inputs::at_rest(torques.map(|torque| torque.value).collect(), bearings)
+    torques.map(|torque| torque.value).collect()
 }
 
 /// The simulation that a file describes, with another tolerance.
@@ -105,7 +104,8 @@ pub fn started(train: &GearTrain, settings: &config::Simulation, tolerance: f64)
         ..settings.clone()
     };
     let model = ModalModel::assemble(train, None).expect("the model has modes");
-    Simulation::start(model, inputs(train), &settings, 0.0).expect("the model has an equilibrium")
+    let inputs = model.inputs_at_rest(torques(train));
+    Simulation::start(model, inputs, &settings, 0.0).expect("the model has an equilibrium")
 }
 
 /// x of a simulation.

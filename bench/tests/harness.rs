@@ -3,7 +3,7 @@
 use bench::contest::Contest;
 use bench::equations::Equations;
 use bench::models::{MODES, Phases, case_four, chain, odd_speed};
-use bench::problem::{Problem, inputs, loaded, started};
+use bench::problem::{Problem, loaded, started, torques};
 use bench::rivals::{dopri5, ours, rk4};
 use geartrain::config::SolverChoice;
 
@@ -20,7 +20,7 @@ fn the_equations_for_everybody_are_those_of_the_library() {
     ] {
         let (train, settings) = loaded(&text);
         let mut simulation = started(&train, &settings, 1e-4);
-        let torques = inputs(&train).torques;
+        let torques = torques(&train);
         let equations = Equations::of(&train, simulation.model(), &torques);
         // Times at which no stiffness changes its piece: there the library looks ahead.
         for time in [0.0, 1.234_567e-3, 4.321e-3] {

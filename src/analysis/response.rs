@@ -66,9 +66,7 @@ impl<'a> ForceResponse<'a> {
     pub fn of(model: &'a ModalModel) -> ForceResponse<'a> {
         let n = model.system.size;
         let bearings: Vec<&Bearing> = model.bearings().collect();
-        let stations = bearings
-            .iter()
-            .flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
+        let stations = bearings.iter().flat_map(|bearing| &bearing.relative);
         let couplings = &model.system.couplings;
         let dense = |rows: Vec<Vec<f64>>| {
             DMatrix::from_row_iterator(rows.len(), n, rows.into_iter().flatten())

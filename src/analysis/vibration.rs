@@ -7,7 +7,7 @@
 //! ```
 //!
 //! * **kind**: `mesh` when the meshes hold the largest of the three strain energies (bending and bearings,
-//!   twist, meshes); otherwise lateral or torsional, whichever has more kinetic energy.
+//!   twist, meshes); otherwise lateral, torsional or housing, whichever has most kinetic energy.
 //! * **rotor**: the one with the most kinetic energy.
 //! * **whirl**: of a lateral vibration, on that rotor, forward when it turns as the rotor does. Motion that is
 //!   flatter than an ellipse of 1 : 20 has none, nor has any on a rotor that stands still.
@@ -35,6 +35,8 @@ pub enum Kind {
     Torsional,
     /// The teeth.
     Mesh,
+    /// The housing around the rotors.
+    Housing,
 }
 
 /// Sense of a lateral vibration relative to the rotation of its rotor.
@@ -140,8 +142,12 @@ pub(super) fn vibration_of(
         .unwrap_or(0);
     let lateral: f64 = kinetic.iter().map(|energies| energies[0]).sum();
     let torsional: f64 = kinetic.iter().map(|energies| energies[1]).sum();
+    let places = model.housing.iter().flat_map(|housing| &housing.modes);
+    let of_housing: f64 = places.map(|mode| moving(&mode.place)).sum();
     let kind = if energy.mesh > energy.lateral.max(energy.torsional) {
         Kind::Mesh
+    } else if of_housing > lateral.max(torsional) {
+        Kind::Housing
     } else if lateral >= torsional {
         Kind::Lateral
     } else {

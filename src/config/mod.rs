@@ -12,6 +12,7 @@
 
 mod dimension;
 mod document;
+mod housing;
 mod mesh;
 mod place;
 mod quantity;
@@ -23,9 +24,10 @@ mod tooth_geometry;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+pub use housing::{Connection, Housing, HousingMode, HousingPoint, Kind};
 pub use mesh::{Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
-pub use read::{Reading, read};
+pub use read::{Files, Reading, read};
 pub use rotor::{
     BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
     Rotor, Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
@@ -36,6 +38,8 @@ pub use tooth_geometry::ToothGeometry;
 /// One model file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Config {
+    /// What the file describes.
+    pub kind: Kind,
     /// FMI modelIdentifier and file name; a C identifier.
     pub name: String,
     /// One line for people.
@@ -52,6 +56,8 @@ pub struct Config {
     pub meshes: Vec<Mesh>,
     /// Sinusoidal motion of all bearing supports, added to the inputs.
     pub gearbox_vibration: GearboxVibration,
+    /// The structure around the rotors, or the one that is all.
+    pub housing: Option<Housing>,
 }
 
 /// `[simulation]`: how the time simulation starts and runs.

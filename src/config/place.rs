@@ -15,6 +15,8 @@ use super::spot::Spot;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
+    /// The file that it stands in, where that is not the model file.
+    file: Option<String>,
     path: String,
     words: String,
 }
@@ -22,6 +24,8 @@ pub struct Place {
 /// One thing that is wrong in a model file, or worth a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
+    /// The file, by its path from the model file, where it is not that one.
+    pub file: Option<String>,
     /// Where in the file; unknown for models that do not come from a file.
     pub spot: Option<Spot>,
     /// Key path, such as `rotor[2].bearing[1].position`.
@@ -36,14 +40,29 @@ impl Place {
     /// The top of the file.
     pub fn root() -> Place {
         Place {
+            file: None,
             path: String::new(),
             words: String::new(),
+        }
+    }
+
+    /// The file that it stands in, by its path from the model file; `None` for that one.
+    pub fn file(&self) -> Option<&str> {
+        self.file.as_deref()
+    }
+
+    /// The top of another file, given by its path from the model file.
+    pub fn of_file(file: &str) -> Place {
+        Place {
+            file: Some(file.to_string()),
+            ..Place::root()
         }
     }
 
     /// The table `name` inside this one.
     pub fn table(&self, name: &str) -> Place {
         Place {
+            file: self.file.clone(),
             path: self.key(name),
             words: joined(&self.words, ", ", name),
         }
@@ -57,6 +76,7 @@ impl Place {
             _ => format!("{kind} {number}"),
         };
         Place {
+            file: self.file.clone(),
             path: format!("{}[{number}]", self.key(kind)),
             words: joined(&self.words, ", ", &own),
         }
@@ -75,6 +95,7 @@ impl Place {
     /// A problem with `key` of this table. The message names key, rule and value.
     pub fn problem(&self, key: &str, message: String) -> Problem {
         Problem {
+            file: self.file.clone(),
             spot: None,
             key: self.key(key),
             place: self.words.clone(),

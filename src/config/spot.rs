@@ -14,9 +14,10 @@ pub struct Spot {
     pub width: usize,
 }
 
-/// Where every key and table of a file stands, by key path: at its value, or at the key of a table.
+/// Where every key and table of a model file and of the files it names stands, by file and key path: at its value, or at the
+/// key of a table.
 #[derive(Debug, Clone, Default)]
-pub struct Lines(BTreeMap<String, Spot>);
+pub struct Lines(BTreeMap<Option<String>, BTreeMap<String, Spot>>);
 
 /// A file with the offset of the first letter of every line.
 pub(super) struct Text<'t> {
@@ -28,19 +29,25 @@ pub(super) struct Text<'t> {
 const LONGEST_LINE: usize = 120;
 
 impl Lines {
-    /// The spot of a key path, or of the nearest table around it that the file contains.
-    pub fn find(&self, key: &str) -> Option<Spot> {
+    /// The spot of a key path, or of the nearest table around it that the file contains; `file` is the path of one that the
+    /// model file names.
+    pub fn find(&self, file: Option<&str>, key: &str) -> Option<Spot> {
+        let keys = self.0.get(&file.map(str::to_string))?;
         let mut path = key;
         loop {
-            if let Some(&spot) = self.0.get(path) {
+            if let Some(&spot) = keys.get(path) {
                 return Some(spot);
             }
             path = &path[..path.rfind('.')?];
         }
     }
 
-    pub(super) fn insert(&mut self, key: String, spot: Spot) {
-        self.0.insert(key, spot);
+    pub(super) fn insert(&mut self, file: Option<String>, key: String, spot: Spot) {
+        self.0.entry(file).or_default().insert(key, spot);
+    }
+
+    pub(super) fn extend(&mut self, others: Lines) {
+        self.0.extend(others.0);
     }
 }
 
@@ -51,6 +58,19 @@ impl<'t> Text<'t> {
             text,
             line_starts: std::iter::once(0).chain(ends).collect(),
         }
+    }
+
+    /// The spot of a line, counted from one.
+    pub(super) fn line(&self, number: usize) -> Spot {
+        let start = self
+            .line_starts
+            .get(number - 1)
+            .copied()
+            .unwrap_or(self.text.len());
+        let end = self.text[start..]
+            .find('\n')
+            .map_or(self.text.len(), |end| start + end);
+        self.spot(start..end)
     }
 
     /// The spot of a range of bytes.

@@ -5,10 +5,10 @@ use std::io;
 use quick_xml::events::{BytesText, Event};
 
 use super::{Xml, number, written};
-use crate::config::Config;
+use crate::config::{Config, Kind};
 use crate::interface::{Causality, Interface, Variable};
 use crate::model::ModalModel;
-use crate::train::GearTrain;
+use crate::train::{GearTrain, Housing};
 
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}\
 table{border-collapse:collapse;width:100%;margin:1rem 0;font-size:.9em}\
@@ -37,10 +37,18 @@ pub fn documentation_page(
                 text(html, "h1", &config.name)?;
                 text(html, "p", &config.description)?;
                 usage(html, config)?;
-                text(html, "h2", "Rotors")?;
-                rotors(html, train, model)?;
-                text(html, "h2", "Meshes")?;
-                meshes(html, train, model)?;
+                if !train.rotors.is_empty() {
+                    text(html, "h2", "Rotors")?;
+                    rotors(html, train, model)?;
+                }
+                if !train.meshes.is_empty() {
+                    text(html, "h2", "Meshes")?;
+                    meshes(html, train, model)?;
+                }
+                if let Some(housing) = &train.housing {
+                    text(html, "h2", "Housing")?;
+                    modes(html, housing)?;
+                }
                 variables(html, interface)
             })?;
             Ok(())
@@ -51,10 +59,51 @@ pub fn documentation_page(
 }
 
 fn usage(html: &mut Xml, config: &Config) -> io::Result<()> {
+    let own = match config.kind {
+        Kind::GearTrain => usage_of_train(config),
+        Kind::Housing => usage_of_housing(config),
+    };
+    let always = [
+        "Beyond that: the state can be saved, restored and written as bytes, and continues to the bit; directional \
+         derivatives of all outputs along all inputs, and output derivatives of order 1, are exact. Read a force or an \
+         acceleration after setting an input that it follows at once, and it answers without a step.",
+        "Parameters may be set until initialization ends. Calls out of order and numbers that are not finite are refused \
+         with a log message and change nothing.",
+    ];
+    let always = always.map(str::to_string);
+    own.iter()
+        .chain(&always)
+        .try_for_each(|paragraph| text(html, "p", paragraph))
+}
+
+fn usage_of_housing(config: &Config) -> [String; 4] {
+    let name = &config.name;
+    [
+        format!(
+            "An FMI 2.0 co-simulation FMU made by geartrain {}: a gearbox structure by its vibration modes, shaken by \
+             forces at named points. Without any input it runs alone: fmpy simulate {name}.fmu",
+            env!("CARGO_PKG_VERSION")
+        ),
+        "To couple a gear train, feed the force of each rotor on the gearbox, <rotor>.<bearing>.force_x and .force_y, into \
+         <point>.force_x and .force_y, and return <point>.x .y .vx .vy to <rotor>.<bearing>.housing.x .y .vx .vy. Points \
+         that are only looked at have no force; <point>.ax and .ay are what an acceleration sensor there sees."
+            .to_string(),
+        format!(
+            "Every mode is propagated exactly over a step of any length, for forces that are held over it or, with \
+             fmi2SetRealInputDerivatives, change linearly ({} s is suggested).",
+            config.simulation.step_size
+        ),
+        "Initial state: the static deflection under the forces set by the end of initialization (start = equilibrium), or \
+         rest."
+            .to_string(),
+    ]
+}
+
+fn usage_of_train(config: &Config) -> [String; 4] {
     let Config {
         name, simulation, ..
     } = config;
-    let paragraphs = [
+    [
         format!(
             "An FMI 2.0 co-simulation FMU made by geartrain {}: shafts reduced to their vibration modes, \
              coupled by their gear meshes, on bearings that the gearbox shakes. Without any input it runs \
@@ -72,19 +121,10 @@ fn usage(html: &mut Xml, config: &Config) -> io::Result<()> {
              the RMS error of every mesh force stays within simulation.tolerance = {} of its RMS.",
             simulation.step_size, simulation.tolerance
         ),
-        "Beyond that: the state can be saved, restored and written as bytes, and continues to the bit; directional \
-         derivatives of all outputs along all inputs, and output derivatives of order 1, are exact. Read a bearing force \
-         after setting the gearbox's motion and it answers without a step."
+        "Initial state: the static solution with the mean mesh stiffness under the torques and gearbox displacements set \
+         by the end of initialization (start = equilibrium), or rest."
             .to_string(),
-        "Parameters may be set until initialization ends. Initial state: the static solution with the mean \
-         mesh stiffness under the torques and gearbox displacements set by then (start = equilibrium), or \
-         rest. Calls out of order and numbers that are not finite are refused with a log message and change \
-         nothing."
-            .to_string(),
-    ];
-    paragraphs
-        .iter()
-        .try_for_each(|paragraph| text(html, "p", paragraph))
+    ]
 }
 
 fn rotors(html: &mut Xml, train: &GearTrain, model: &ModalModel) -> io::Result<()> {
@@ -136,6 +176,21 @@ fn meshes(html: &mut Xml, train: &GearTrain, model: &ModalModel) -> io::Result<(
                 format!("{:.3}", modal.frequency()),
                 format!("{:.6e}", modal.mean_stiffness()),
                 format!("{:.1}", modal.damping),
+            ];
+            row(html, &cells)?;
+        }
+        Ok(())
+    })
+}
+
+fn modes(html: &mut Xml, housing: &Housing) -> io::Result<()> {
+    let head = ["Mode", "Frequency [Hz]", "Damping ratio"];
+    table(html, &head, |html| {
+        for (mode, number) in housing.modes.iter().zip(1..) {
+            let cells = [
+                format!("{number}"),
+                format!("{:.3}", mode.frequency),
+                format!("{:.4}", mode.damping_ratio),
             ];
             row(html, &cells)?;
         }

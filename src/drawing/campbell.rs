@@ -63,7 +63,7 @@ pub fn campbell_diagram(train: &GearTrain, table: &Campbell, highest: f64) -> Op
             svg.circle("critical", axes.at(rpm(critical.speed), hertz), 4.0, &hint);
         }
     }
-    legend(&mut svg);
+    legend(&mut svg, train.housing.is_some());
     Some(svg.finish("Campbell diagram"))
 }
 
@@ -109,6 +109,7 @@ fn class_of(kind: Option<Kind>) -> &'static str {
         Some(Kind::Lateral) | None => "s1",
         Some(Kind::Torsional) => "s2",
         Some(Kind::Mesh) => "s3",
+        Some(Kind::Housing) => "s4",
     }
 }
 
@@ -133,14 +134,18 @@ fn name_of(train: &GearTrain, excitation: &crate::analysis::Excitation) -> Strin
     }
 }
 
-fn legend(svg: &mut Svg) {
-    let mut x = 250.0;
+fn legend(svg: &mut Svg, with_housing: bool) {
+    let housing = ("series s4", "housing", 82.0);
+    let mut x = if with_housing { 150.0 } else { 250.0 };
     for (class, text, width) in [
         ("series s1", "lateral", 76.0),
         ("series s2", "torsional", 90.0),
         ("series s3", "mesh", 68.0),
-        ("ray", "excitation", 94.0),
-    ] {
+    ]
+    .into_iter()
+    .chain(with_housing.then_some(housing))
+    .chain([("ray", "excitation", 94.0)])
+    {
         svg.line(class, [x, 12.0], [x + 20.0, 12.0]);
         svg.text("label", [x + 25.0, 16.0], Anchor::Start, text);
         x += width + 18.0;

@@ -1,20 +1,23 @@
 //! Who depends on whom: the dependencies of modelDescription.xml.
 
 use super::{Interface, Parameter, PlanarEntry, Quantity, Variable};
-use crate::config::{Bearing, Config, Planar, SpeedPoint};
+use crate::config::{Bearing, Config, HousingMode, HousingPoint, Planar, SpeedPoint};
 
 impl Interface {
     /// The inputs that a variable reacts to at the same instant, as indices into the table, ascending. An input counts if
     /// parameters can make it count.
     pub fn feed_through(&self, config: &Config, variable: &Variable) -> Vec<usize> {
-        let Quantity::BearingForce {
-            rotor,
-            bearing,
-            input,
-            axis,
-        } = variable.quantity
-        else {
-            return Vec::new();
+        let (rotor, bearing, input, axis) = match variable.quantity {
+            Quantity::BearingForce {
+                rotor,
+                bearing,
+                input,
+                axis,
+            } => (rotor, bearing, input, axis),
+            Quantity::PointAcceleration { point, axis } => {
+                return self.accelerating(config, [point, axis]);
+            }
+            _ => return Vec::new(),
         };
         let data = &config.rotors[rotor].bearings[bearing];
         self.indices(|quantity| match quantity {
@@ -25,6 +28,27 @@ impl Interface {
             }
             Quantity::BaseVelocity { bearing, axis: of } => {
                 bearing == input && counts(data, |at| &at.damping, [axis, of])
+            }
+            _ => false,
+        })
+    }
+
+    /// The forces on the housing that a point of it answers to at once: psi psi' of point and force.
+    fn accelerating(&self, config: &Config, [point, axis]: [usize; 2]) -> Vec<usize> {
+        let Some(housing) = &config.housing else {
+            return Vec::new();
+        };
+        let points = housing.points.iter();
+        let loaded: Vec<&HousingPoint> = points.filter(|one| housing.takes_forces(one)).collect();
+        let entry = |mode: &HousingMode, point: &HousingPoint, axis: usize| {
+            mode.shape.get(&point.name).map_or(0.0, |shape| shape[axis])
+        };
+        let moved = &housing.points[point];
+        self.indices(|quantity| match quantity {
+            Quantity::PointForce { force, axis: of } => {
+                let modes = housing.modes.iter();
+                let share = |mode| entry(mode, moved, axis) * entry(mode, loaded[force], of);
+                modes.map(share).sum::<f64>() != 0.0
             }
             _ => false,
         })

@@ -73,6 +73,8 @@ pub enum Quantity {
     BaseDisplacement { bearing: usize, axis: usize },
     /// Gearbox velocity at bearing number `bearing` of the inputs.
     BaseVelocity { bearing: usize, axis: usize },
+    /// Force number `force` from outside on the housing.
+    PointForce { force: usize, axis: usize },
     /// A number of the configuration.
     Parameter(Parameter),
     /// Speed that follows from the leader of the train.
@@ -119,6 +121,12 @@ pub enum Quantity {
     Speed { rotor: usize },
     /// Rotation angle of a rotor.
     Angle { rotor: usize },
+    /// Displacement of a point of the housing.
+    PointDisplacement { point: usize, axis: usize },
+    /// Velocity of a point of the housing.
+    PointVelocity { point: usize, axis: usize },
+    /// Acceleration of a point of the housing.
+    PointAcceleration { point: usize, axis: usize },
     /// A modal coordinate.
     Modal { coordinate: usize },
 }
@@ -153,7 +161,8 @@ impl Variable {
         match self.quantity {
             Quantity::Torque { .. }
             | Quantity::BaseDisplacement { .. }
-            | Quantity::BaseVelocity { .. } => Causality::Input,
+            | Quantity::BaseVelocity { .. }
+            | Quantity::PointForce { .. } => Causality::Input,
             Quantity::Parameter(_) => Causality::Parameter,
             Quantity::DerivedSpeed { .. }
             | Quantity::LateralFrequency { .. }
@@ -177,6 +186,9 @@ impl Quantity {
                 .bases
                 .get_mut(bearing)
                 .map(|base| &mut base.velocity[axis]),
+            Quantity::PointForce { force, axis } => {
+                inputs.forces.get_mut(force).map(|force| &mut force[axis])
+            }
             _ => None,
         }
     }
@@ -189,6 +201,7 @@ impl Quantity {
             Quantity::Torque { .. }
             | Quantity::BaseDisplacement { .. }
             | Quantity::BaseVelocity { .. }
+            | Quantity::PointForce { .. }
             | Quantity::Parameter(_)
             | Quantity::DerivedSpeed { .. } => f64::NAN,
             Quantity::LateralFrequency { rotor, mode } => rotors[rotor].lateral_frequencies[mode],
@@ -224,6 +237,9 @@ impl Quantity {
             } => direction.of(rotor, &rotors[rotor].probes[probe], motion),
             Quantity::Speed { rotor } => motion.speed(rotor),
             Quantity::Angle { rotor } => motion.angle(rotor),
+            Quantity::PointDisplacement { point, axis } => motion.point_displacement(point)[axis],
+            Quantity::PointVelocity { point, axis } => motion.point_velocity(point)[axis],
+            Quantity::PointAcceleration { point, axis } => motion.point_acceleration(point)[axis],
             Quantity::Modal { coordinate } => motion.state.position[coordinate],
         }
     }
@@ -263,10 +279,14 @@ impl Quantity {
             } => direction.change(rotor, &rotors[rotor].probes[probe], change),
             Quantity::Speed { rotor } => change.speed(rotor),
             Quantity::Angle { rotor } => change.angle(rotor),
+            Quantity::PointDisplacement { point, axis } => change.point_displacement(point)[axis],
+            Quantity::PointVelocity { point, axis } => change.point_velocity(point)[axis],
+            Quantity::PointAcceleration { point, axis } => change.point_acceleration(point)[axis],
             Quantity::Modal { coordinate } => change.position[coordinate],
             Quantity::Torque { .. }
             | Quantity::BaseDisplacement { .. }
             | Quantity::BaseVelocity { .. }
+            | Quantity::PointForce { .. }
             | Quantity::Parameter(_)
             | Quantity::DerivedSpeed { .. }
             | Quantity::LateralFrequency { .. }

@@ -1,6 +1,6 @@
 //! The numbers of a model that a master may change until initialization ends.
 
-use crate::config::{Config, GearboxVibration, Planar, RadialForce};
+use crate::config::{Config, GearboxVibration, HousingMode, Planar, RadialForce};
 
 /// A parameter, by the place of its number in the configuration. Indices count from zero.
 #[expect(
@@ -39,6 +39,10 @@ pub enum Parameter {
     Clearance { rotor: usize, bearing: usize },
     /// `gearbox_vibration.*`
     Vibration(VibrationEntry),
+    /// `housing.frequency[i]`
+    HousingFrequency { mode: usize },
+    /// `housing.damping_ratio[i]`
+    HousingDampingRatio { mode: usize },
     /// `simulation.tolerance`
     Tolerance,
 }
@@ -104,9 +108,18 @@ impl Parameter {
                 &mut bearing.nonlinear.get_or_insert(RadialForce::NONE).clearance
             }
             Parameter::Vibration(entry) => entry.slot(&mut config.gearbox_vibration),
+            Parameter::HousingFrequency { mode } => &mut housing_mode(config, mode).frequency,
+            Parameter::HousingDampingRatio { mode } => {
+                &mut housing_mode(config, mode).damping_ratio
+            }
             Parameter::Tolerance => &mut config.simulation.tolerance,
         }
     }
+}
+
+fn housing_mode(config: &mut Config, mode: usize) -> &mut HousingMode {
+    let housing = config.housing.as_mut();
+    &mut housing.expect("only a housing has these parameters").modes[mode]
 }
 
 impl PlanarEntry {

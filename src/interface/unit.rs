@@ -9,6 +9,8 @@ pub enum Unit {
     Meter,
     /// m/s
     MeterPerSecond,
+    /// m/s2
+    MeterPerSecondSquared,
     /// N
     Newton,
     /// N.m
@@ -47,9 +49,10 @@ pub struct DisplayUnit {
 
 impl Unit {
     /// All units with a name.
-    pub const NAMED: [Unit; 10] = [
+    pub const NAMED: [Unit; 11] = [
         Unit::Meter,
         Unit::MeterPerSecond,
+        Unit::MeterPerSecondSquared,
         Unit::Newton,
         Unit::NewtonMeter,
         Unit::NewtonPerMeter,
@@ -66,6 +69,7 @@ impl Unit {
             Unit::One => "",
             Unit::Meter => "m",
             Unit::MeterPerSecond => "m/s",
+            Unit::MeterPerSecondSquared => "m/s2",
             Unit::Newton => "N",
             Unit::NewtonMeter => "N.m",
             Unit::NewtonPerMeter => "N/m",
@@ -83,6 +87,7 @@ impl Unit {
             Unit::One => ([0, 0, 0, 0], 1.0),
             Unit::Meter => ([0, 1, 0, 0], 1.0),
             Unit::MeterPerSecond => ([0, 1, -1, 0], 1.0),
+            Unit::MeterPerSecondSquared => ([0, 1, -2, 0], 1.0),
             Unit::Newton => ([1, 1, -2, 0], 1.0),
             Unit::NewtonMeter => ([1, 2, -2, 0], 1.0),
             Unit::NewtonPerMeter => ([1, 0, -2, 0], 1.0),

@@ -6,9 +6,9 @@
 use super::inputs::{self, SupportVibration};
 use super::layout::{Coordinates, Layout};
 use super::radial::RadialBearing;
-use super::spin::Spin;
-use super::{Bearing, Mesh, ModalModel, Rotor, Station, excitation, monitors};
-use crate::config::{SpeedMode, TorqueCoupling};
+use super::spin::{SpeedBearing, Spin};
+use super::{Bearing, Housing, Mesh, ModalModel, Point, Rotor, Station, excitation, monitors};
+use crate::config::{Planar, SpeedMode, TorqueCoupling};
 use crate::mesh::{GearMotion, LineOfAction};
 use crate::rotor::{ModalRotor, ModeCounts, ReductionError};
 use crate::solver::{Coupling, Row, System};
@@ -28,7 +28,9 @@ impl ModalModel {
             reduced.push(ModalRotor::reduce(rotor, &train.basis, fixed)?);
         }
         let counts: Vec<ModeCounts> = reduced.iter().map(ModalRotor::counts).collect();
-        let layout = Layout::of(&counts, &vec![false; counts.len()], 0);
+        let layout = layout_of(train, &counts);
+        let housing = train.housing.as_ref();
+        let housing = housing.map(|housing| Housing::of(housing, &layout.housing));
         let mut system = System {
             size: layout.size(),
             blocks: layout.empty_blocks(),
@@ -36,8 +38,18 @@ impl ModalModel {
         };
         let mut rotors = Vec::new();
         let places = layout.lateral.into_iter().zip(layout.torsional);
+        let mut input = 0;
         for ((rotor, modal), places) in train.rotors.iter().zip(reduced).zip(places) {
-            rotors.push(add_rotor(&mut system, rotor, modal, places, free));
+            let under = |bearing: usize| housing.as_ref()?.under(input + bearing);
+            rotors.push(add_rotor(&mut system, rotor, modal, places, (free, &under)));
+            input += rotor.bearings.len();
+        }
+        if let Some(housing) = &housing {
+            let bearings = || rotors.iter().flat_map(|rotor| &rotor.bearings);
+            let constant: Vec<(Planar, Planar)> = bearings()
+                .map(|bearing| (bearing.stiffness, bearing.damping))
+                .collect();
+            housing.put(bearings(), |input| constant[input], &mut system.blocks);
         }
         let mut meshes = Vec::new();
         for mesh in &train.meshes {
@@ -49,13 +61,18 @@ impl ModalModel {
         let mut harmonics = Vec::new();
         for (index, rotor) in train.rotors.iter().enumerate() {
             if free {
-                spins.push(add_spin(&mut system, &rotors, index, rotor));
+                spins.push(add_spin(
+                    &mut system,
+                    (&rotors, housing.as_ref()),
+                    index,
+                    rotor,
+                ));
             } else {
                 let bows = &rotors[index].modal.bows;
                 harmonics.extend(excitation::rotating_load(rotor, &rotors[index], bows));
             }
         }
-        system.loads = inputs::columns(&rotors);
+        system.loads = inputs::columns(&rotors, housing.as_ref());
         system.slow = spins.iter().map(|spin| rotors[spin.rotor].speed).collect();
         harmonics.extend(vibration.harmonic(&rotors, system.size));
         system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
@@ -67,17 +84,31 @@ impl ModalModel {
             spins,
             harmonics,
             vibration,
+            housing,
         })
     }
 }
 
+/// Where everything is; rotors with a bearing that the housing holds stand together with it.
+fn layout_of(train: &GearTrain, counts: &[ModeCounts]) -> Layout {
+    let Some(housing) = &train.housing else {
+        return Layout::of(counts, &vec![false; counts.len()], 0);
+    };
+    let mut holds = housing.holds.iter();
+    let held = train.rotors.iter().map(|rotor| {
+        let own = holds.by_ref().take(rotor.bearings.len());
+        own.filter(|point| point.is_some()).count() > 0
+    });
+    Layout::of(counts, &held.collect::<Vec<bool>>(), housing.modes.len())
+}
+
 /// Puts the rotor's stiffness and damping in their places: lateral and torsional.
-fn add_rotor(
+fn add_rotor<'a>(
     system: &mut System,
     rotor: &train::Rotor,
     modal: ModalRotor,
     (lateral, torsional): (Coordinates, Coordinates),
-    free: bool,
+    (free, under): (bool, &dyn Fn(usize) -> Option<&'a Point>),
 ) -> Rotor {
     lateral.put(
         &mut system.blocks,
@@ -95,10 +126,19 @@ fn add_rotor(
         torsional: &torsional,
     };
     let station = |position: f64| builder.station(position);
-    let bearing = |bearing: &train::Bearing| {
+    let bearing = |(index, bearing): (usize, &train::Bearing)| {
         let coefficients = bearing.coefficients(rotor.speed);
+        let station = station(bearing.position);
+        let mut relative = [station.x.clone(), station.y.clone()];
+        for (row, point) in relative
+            .iter_mut()
+            .zip(under(index).iter().flat_map(|point| &point.rows))
+        {
+            row.add(-1.0, point);
+        }
         Bearing {
-            station: station(bearing.position),
+            station,
+            relative,
             stiffness: coefficients.stiffness,
             damping: coefficients.damping,
             follows_speed: free && bearing.depends_on_speed(),
@@ -115,7 +155,7 @@ fn add_rotor(
             .iter()
             .map(|gear| station(gear.body.position))
             .collect(),
-        bearings: rotor.bearings.iter().map(bearing).collect(),
+        bearings: rotor.bearings.iter().enumerate().map(bearing).collect(),
         torques: rotor
             .torques
             .iter()
@@ -243,7 +283,7 @@ fn add_radial_bearings(system: &mut System, rotors: &[Rotor]) -> Vec<RadialBeari
                 first_coupling: system.couplings.len(),
                 law: system.laws,
             });
-            for row in [&bearing.station.x, &bearing.station.y] {
+            for row in &bearing.relative {
                 system.couplings.push(Coupling {
                     row: row.clone(),
                     column: row.clone(),
@@ -255,8 +295,14 @@ fn add_radial_bearings(system: &mut System, rotors: &[Rotor]) -> Vec<RadialBeari
     radial
 }
 
-/// The couplings of a rotor that turns freely: two that observe, and one on every lateral coordinate.
-fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::Rotor) -> Spin {
+/// The couplings of a rotor that turns freely: two that observe, one on every lateral coordinate, and two at every point of the
+/// housing that holds a bearing which depends on the speed.
+fn add_spin(
+    system: &mut System,
+    (rotors, housing): (&[Rotor], Option<&Housing>),
+    index: usize,
+    rotor: &train::Rotor,
+) -> Spin {
     let modal = &rotors[index];
     let n = modal.counts.lateral;
     let rigid = modal.torsional.range().start;
@@ -266,7 +312,7 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
         numbered.filter(|&(_, entry)| entry != 0.0).collect()
     };
     let torques = entries(&mut system.couplings.iter().map(|coupling| &coupling.column));
-    let loads = entries(&mut inputs::columns(rotors).iter());
+    let loads = entries(&mut inputs::columns(rotors, housing).iter());
     let drag = &system.blocks[modal.torsional.block()].damping;
     let drag: Vec<f64> = drag.row(0).iter().copied().collect();
     let drag = modal.torsional.row(&drag);
@@ -292,6 +338,27 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
         .map(|rotor| rotor.bearings.len())
         .sum();
     let bearings = rotor.bearings.iter().enumerate();
+    let bearings = bearings.filter(|(_, bearing)| bearing.depends_on_speed());
+    let bearings = bearings.map(|(number, bearing)| {
+        let input = inputs_before + number;
+        let point = housing.and_then(|housing| housing.under(input));
+        let held = point.map(|point| {
+            let first = system.couplings.len();
+            let pushed = |row: &Row| Coupling {
+                row: row.clone(),
+                column: row.clone(),
+            };
+            system.couplings.extend(point.rows.iter().map(pushed));
+            first
+        });
+        SpeedBearing {
+            shape: modal.modal.lateral_row(bearing.position),
+            input,
+            held,
+            law: bearing.clone(),
+        }
+    });
+    let bearings = bearings.collect();
     Spin {
         rotor: index,
         turn,
@@ -308,12 +375,6 @@ fn add_spin(system: &mut System, rotors: &[Rotor], index: usize, rotor: &train::
             .map(|(one, shape)| (shape.clone(), one.moment, one.phase))
             .collect(),
         bows: modal.modal.bows.clone(),
-        bearings: bearings
-            .filter(|(_, bearing)| bearing.depends_on_speed())
-            .map(|(number, bearing)| {
-                let shape = modal.modal.lateral_row(bearing.position);
-                (shape, inputs_before + number, bearing.clone())
-            })
-            .collect(),
+        bearings,
     }
 }

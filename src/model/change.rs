@@ -38,7 +38,7 @@ impl Change<'_> {
         row.dot(self.position)
     }
 
-    fn velocity(&self, row: &Row) -> f64 {
+    pub(super) fn velocity(&self, row: &Row) -> f64 {
         row.dot(self.velocity)
     }
 
@@ -156,16 +156,17 @@ impl Change<'_> {
     /// inputs.
     pub fn bearing_force(&self, rotor: usize, bearing: &Bearing, input: usize) -> [f64; 2] {
         let motion = &self.motion;
-        let (station, speed) = (&bearing.station, motion.speed(rotor));
+        let speed = motion.speed(rotor);
         let (stiffness, damping) = bearing.at_speed(speed);
         let base = self.base(input);
+        let [x, y] = &bearing.relative;
         let displacement = [
-            self.displacement(&station.x) - base.displacement[0],
-            self.displacement(&station.y) - base.displacement[1],
+            self.displacement(x) - base.displacement[0],
+            self.displacement(y) - base.displacement[1],
         ];
         let velocity = [
-            self.velocity(&station.x) - base.velocity[0],
-            self.velocity(&station.y) - base.velocity[1],
+            self.velocity(x) - base.velocity[0],
+            self.velocity(y) - base.velocity[1],
         ];
         let seen = motion.relative_to_gearbox(bearing, input);
         let (stiffness_slope, damping_slope) = bearing.slopes_at(speed);
@@ -178,6 +179,12 @@ impl Change<'_> {
             self.radial_force(input, seen.displacement, displacement),
         ];
         [0, 1].map(|axis| parts.iter().map(|part| part[axis]).sum())
+    }
+
+    /// The same for the bearing at a place among the inputs.
+    pub(super) fn force_on_gearbox(&self, input: usize) -> [f64; 2] {
+        let (rotor, bearing) = self.motion.model.bearing_of(input);
+        self.bearing_force(rotor, bearing, input)
     }
 
     /// Change of the radial force beside the linear bearing: F_r' along the displacement, F_r / r across.

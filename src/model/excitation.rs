@@ -197,8 +197,6 @@ impl Forcing for Excitation<'_> {
     }
 
     fn blocks_into(&self, slow: &[f64], blocks: &mut [Block]) {
-        for (spin, &speed) in self.model.spins.iter().zip(slow) {
-            self.model.rotors[spin.rotor].lateral_at(speed, blocks);
-        }
+        self.model.lateral_blocks_at(slow, blocks);
     }
 }

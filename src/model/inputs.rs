@@ -1,7 +1,7 @@
 //! What a master sets while the simulation runs, and the vibration of all supports beside it.
 //!
 //! ```text
-//!   f = sum over torques of T w_th + sum over bearings of w' (K u_b + C u_b')
+//!   f = sum over torques of T w_th + sum over bearings of r' (K u_b + C u_b') + sum over points of the housing of psi' F
 //!   u(t) = first + (t - since) rate                             while a call lasts: held, or with input derivatives
 //!   gearbox vibration  x_b = a_x sin(w t),  y_b = a_y sin(w t + psi)    at every bearing
 //! ```
@@ -10,7 +10,7 @@ use core::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bearing, ModalModel, Rotor};
+use super::{Bearing, Housing, ModalModel, Rotor};
 use crate::config::{GearboxVibration, Planar};
 use crate::solver::{Harmonic, Ramp, Row};
 
@@ -19,8 +19,10 @@ use crate::solver::{Harmonic, Ramp, Row};
 pub struct Inputs {
     /// External torques [N m], in the order of [`ModalModel::torques`].
     pub torques: Vec<f64>,
-    /// Gearbox motion, in the order of [`ModalModel::bearings`].
+    /// Gearbox motion, in the order of [`ModalModel::bearings`]; none where a housing in the model moves the bearing.
     pub bases: Vec<BaseMotion>,
+    /// Forces from outside on the points of the housing that take some, in x and y [N].
+    pub forces: Vec<[f64; 2]>,
 }
 
 /// Motion of the gearbox at one bearing.
@@ -53,14 +55,6 @@ pub(super) struct SupportVibration {
 }
 
 impl Inputs {
-    /// No gearbox motion, and the given torques.
-    pub fn at_rest(torques: Vec<f64>, bearings: usize) -> Inputs {
-        Inputs {
-            torques,
-            bases: vec![BaseMotion::default(); bearings],
-        }
-    }
-
     /// Adds what changes in `elapsed` seconds.
     pub fn add_change(&mut self, rate: &Inputs, elapsed: f64) {
         for (torque, rate) in self.torques.iter_mut().zip(&rate.torques) {
@@ -69,11 +63,17 @@ impl Inputs {
         for (base, rate) in self.bases.iter_mut().zip(&rate.bases) {
             *base = base.plus(&rate.times(elapsed));
         }
+        let forces = self.forces.iter_mut().flatten();
+        for (force, rate) in forces.zip(rate.forces.iter().flatten()) {
+            *force += elapsed * rate;
+        }
     }
 
     /// Whether there are as many inputs of every kind in both.
     pub fn is_like(&self, other: &Inputs) -> bool {
-        self.torques.len() == other.torques.len() && self.bases.len() == other.bases.len()
+        self.torques.len() == other.torques.len()
+            && self.bases.len() == other.bases.len()
+            && self.forces.len() == other.forces.len()
     }
 
     /// Whether all of them are numbers.
@@ -83,6 +83,7 @@ impl Inputs {
         self.torques
             .iter()
             .chain(of_bases)
+            .chain(self.forces.iter().flatten())
             .all(|value| value.is_finite())
     }
 
@@ -106,9 +107,13 @@ impl Inputs {
                 number += 2;
             }
         }
+        for &force in self.forces.iter().flatten() {
+            put(number, force);
+            number += 1;
+        }
     }
 
-    /// The generalized load of torques and gearbox displacements.
+    /// The generalized load of torques, gearbox displacements and forces on the housing.
     pub(super) fn static_load(&self, model: &ModalModel) -> Vec<f64> {
         let mut load = vec![0.0; model.system.size];
         for (row, &torque) in model.torques().zip(&self.torques) {
@@ -120,6 +125,10 @@ impl Inputs {
                 ..*base
             };
             bearing.base_load(&still, &mut load);
+        }
+        let loaded = model.housing.iter().flat_map(Housing::loaded);
+        for (row, &force) in loaded.zip(self.forces.iter().flatten()) {
+            row.add_to(force, &mut load);
         }
         load
     }
@@ -146,12 +155,14 @@ impl Course<'_> {
     }
 }
 
-/// The columns along which the inputs act: external torques, then x and y of every bearing.
-pub(super) fn columns(rotors: &[Rotor]) -> Vec<Row> {
+/// The columns along which the inputs act: external torques, x and y of every bearing, x and y of the housing's loaded points.
+pub(super) fn columns(rotors: &[Rotor], housing: Option<&Housing>) -> Vec<Row> {
     let torques = rotors.iter().flat_map(|rotor| &rotor.torques);
     let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
-    let of_bearings = bearings.flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
-    torques.chain(of_bearings).cloned().collect()
+    let of_bearings = bearings.flat_map(|bearing| &bearing.relative);
+    let of_housing = housing.into_iter().flat_map(Housing::loaded);
+    let all = torques.chain(of_bearings).chain(of_housing);
+    all.cloned().collect()
 }
 
 impl BaseMotion {
@@ -181,11 +192,11 @@ impl Bearing {
         [spring[0] + damper[0], spring[1] + damper[1]]
     }
 
-    /// load += w' (K u_b + C u_b').
+    /// load += r' (K u_b + C u_b').
     fn base_load(&self, base: &BaseMotion, load: &mut [f64]) {
-        let [x, y] = self.base_force(base);
-        self.station.x.add_to(x, load);
-        self.station.y.add_to(y, load);
+        for (row, force) in self.relative.iter().zip(self.base_force(base)) {
+            row.add_to(force, load);
+        }
     }
 }
 

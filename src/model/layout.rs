@@ -146,6 +146,15 @@ impl Coordinates {
         block.damping.view_mut(corner, shape).copy_from(damping);
     }
 
+    /// Takes away their stiffness and damping, and that between them and others.
+    pub(super) fn clear(&self, blocks: &mut [Block]) {
+        let (block, own) = (&mut blocks[self.block], self.in_block());
+        for matrix in [&mut block.stiffness, &mut block.damping] {
+            matrix.rows_mut(own.start, own.len()).fill(0.0);
+            matrix.columns_mut(own.start, own.len()).fill(0.0);
+        }
+    }
+
     /// The stiffness between them.
     pub fn stiffness(&self, blocks: &[Block]) -> DMatrix<f64> {
         let own = self.in_block();

@@ -21,6 +21,7 @@ mod change;
 mod coupled;
 mod equilibrium;
 mod excitation;
+mod housing;
 mod inputs;
 mod layout;
 mod monitors;
@@ -41,6 +42,7 @@ pub use change::Change;
 pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
+pub use housing::{Housing, Mode, Point};
 pub use inputs::{BaseMotion, Course, Inputs};
 pub use layout::Coordinates;
 pub use motion::Motion;
@@ -66,6 +68,8 @@ pub struct ModalModel {
     harmonics: Vec<Harmonic>,
     /// Motion of all supports in addition to the inputs.
     vibration: SupportVibration,
+    /// The structure around the rotors.
+    pub housing: Option<Housing>,
 }
 
 /// One rotor: where its coordinates are and what sits on it.
@@ -119,6 +123,8 @@ pub struct Station {
 pub struct Bearing {
     /// Where it holds the shaft.
     pub station: Station,
+    /// Displacement of the shaft relative to the housing in this model, in x and y; of the shaft where there is none under it.
+    pub relative: [Row; 2],
     /// Stiffness at the mean speed [N/m].
     pub stiffness: Planar,
     /// Damping at the mean speed [N s/m].
@@ -199,6 +205,42 @@ impl ModalModel {
     /// Number of modes of each rotor.
     pub fn counts(&self) -> Vec<ModeCounts> {
         self.rotors.iter().map(|rotor| rotor.counts).collect()
+    }
+
+    /// Nothing moves and acts from outside but these torques.
+    pub fn inputs_at_rest(&self, torques: Vec<f64>) -> Inputs {
+        let loaded = self.housing.iter().flat_map(Housing::loaded).count() / 2;
+        Inputs {
+            torques,
+            bases: vec![BaseMotion::default(); self.bearings().count()],
+            forces: vec![[0.0; 2]; loaded],
+        }
+    }
+
+    /// Overwrites the lateral blocks with those at these speeds of the rotors [rad/s].
+    fn lateral_blocks_at(&self, speeds: &[f64], blocks: &mut [Block]) {
+        let rotors = || self.rotors.iter().zip(speeds);
+        for (rotor, &speed) in rotors() {
+            rotor.lateral_at(speed, blocks);
+        }
+        if let Some(housing) = &self.housing {
+            let at_speed = |(rotor, &speed): (&Rotor, &f64)| -> Vec<(Planar, Planar)> {
+                let bearings = rotor.bearings.iter();
+                bearings.map(|bearing| bearing.at_speed(speed)).collect()
+            };
+            let coefficients: Vec<(Planar, Planar)> = rotors().flat_map(at_speed).collect();
+            housing.put(self.bearings(), |input| coefficients[input], blocks);
+        }
+    }
+
+    /// The bearing at a place among the inputs, with the index of its rotor.
+    fn bearing_of(&self, input: usize) -> (usize, &Bearing) {
+        let rotors = self.rotors.iter().enumerate();
+        let mut all = rotors.flat_map(|(index, rotor)| {
+            let bearings = rotor.bearings.iter();
+            bearings.map(move |bearing| (index, bearing))
+        });
+        all.nth(input).expect("inputs count bearings")
     }
 
     /// All bearings in the order of the inputs.

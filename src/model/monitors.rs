@@ -41,10 +41,7 @@ pub(super) fn monitors(
             .iter()
             .filter(|bearing| inputs.contains(&bearing.input));
         monitors.extend(own.map(|bearing| of_bearing(system, bearing)));
-        let bearings = rotor
-            .bearings
-            .iter()
-            .flat_map(|bearing| [&bearing.station.x, &bearing.station.y]);
+        let bearings = rotor.bearings.iter().flat_map(|bearing| &bearing.relative);
         let stations = rotor
             .gears
             .iter()

@@ -151,12 +151,18 @@ impl Motion<'_> {
         force
     }
 
+    /// The same for the bearing at a place among the inputs.
+    pub(super) fn force_on_gearbox(&self, input: usize) -> [f64; 2] {
+        let (rotor, bearing) = self.model.bearing_of(input);
+        self.bearing_force(rotor, bearing, input)
+    }
+
     /// Motion of the shaft at a bearing relative to the gearbox.
     pub(super) fn relative_to_gearbox(&self, bearing: &Bearing, input: usize) -> BaseMotion {
-        let station = &bearing.station;
+        let rows = bearing.relative.each_ref();
         let shaft = BaseMotion {
-            displacement: [self.displacement(&station.x), self.displacement(&station.y)],
-            velocity: [self.velocity(&station.x), self.velocity(&station.y)],
+            displacement: rows.map(|row| self.displacement(row)),
+            velocity: rows.map(|row| self.velocity(row)),
         };
         let vibration = self.model.vibration.motion(self.state.time);
         let gearbox = self.inputs.bases[input].plus(&vibration);

@@ -3,7 +3,7 @@
 //! ```text
 //!   phi = phi_0 + (1'J th)/(1'J 1),   Om = phi',   Om' = (torques + mesh torques - drag) / (1'J 1)
 //!   on [A, B]:   (Om - Om_0) G' [B', -A'] + Om' G' [B, -A],   G' = Phi'G Phi        Om_0: speed of the block in use
-//!              + (K(Om) - K(Om_0)) (u - u_b) + ... at bearings that depend on the speed
+//!              + (K(Om) - K(Om_0)) (u - u_b) + ... at bearings that depend on the speed; the reverse on the housing under them
 //!              - m e (Om^2 cos + Om' sin, Om^2 sin - Om' cos)(phi + d)               unbalance
 //!              - Phi'K_s r (cos, sin)(phi + psi)                                     bow
 //! ```
@@ -52,8 +52,21 @@ pub(super) struct Spin {
     pub(super) unbalances: Vec<(Vec<f64>, f64, f64)>,
     /// Residual bow.
     pub(super) bows: Vec<BowLoad>,
-    /// Bearings that depend on the speed: shape at the bearing, its place among the inputs, its coefficients.
-    pub(super) bearings: Vec<(Vec<f64>, usize, Bearing)>,
+    /// Bearings that depend on the speed.
+    pub(super) bearings: Vec<SpeedBearing>,
+}
+
+/// A bearing that depends on the speed.
+#[derive(Debug, Clone)]
+pub(super) struct SpeedBearing {
+    /// Shape of the lateral modes there.
+    pub(super) shape: Vec<f64>,
+    /// Its place among the inputs.
+    pub(super) input: usize,
+    /// The first of the two couplings at the point of the housing that it stands on.
+    pub(super) held: Option<usize>,
+    /// Its coefficients.
+    pub(super) law: Bearing,
 }
 
 impl Spin {
@@ -88,7 +101,8 @@ impl Spin {
         let lateral = self.first..self.first + 2 * self.n;
         let (x, y) = at.deflection[lateral.clone()].split_at(self.n);
         let (vx, vy) = at.rate[lateral.clone()].split_at(self.n);
-        let (on_x, on_y) = forces[lateral].split_at_mut(self.n);
+        let (on_rotor, on_housing) = forces[lateral.start..].split_at_mut(lateral.len());
+        let (on_x, on_y) = on_rotor.split_at_mut(self.n);
         let excess = speed - at.slow[self.rotor];
         for (i, row) in self.gyroscopic.column_iter().enumerate() {
             let row = row.as_slice(); // symmetric
@@ -117,22 +131,34 @@ impl Spin {
             let (sine, cosine) = libm::sincos(angle + bow.phase);
             push(&bow.load, [-cosine, -sine]);
         }
-        for (shape, input, bearing) in &self.bearings {
-            let now = bearing.coefficients(speed);
-            let used = bearing.coefficients(at.slow[self.rotor]);
-            let base = base(*input);
-            // The block holds K(Om_0) u + C(Om_0) u'; the gearbox's motion is not among the loads from outside.
-            let relative = |shaft: &[f64]| dot(shape, shaft);
-            let displacement = [relative(x), relative(y)];
-            let velocity = [relative(vx), relative(vy)];
-            let forces = [
+        for bearing in &self.bearings {
+            let now = bearing.law.coefficients(speed);
+            let used = bearing.law.coefficients(at.slow[self.rotor]);
+            let base = base(bearing.input);
+            // The block holds K(Om_0) (u - psi eta) + C(Om_0) (u' - psi eta'); the gearbox's motion from outside is not among
+            // the loads.
+            let under = |seen: &[f64]| {
+                bearing
+                    .held
+                    .map_or([0.0; 2], |first| [seen[first], seen[first + 1]])
+            };
+            let relative = |shaft: [&[f64]; 2], under: [f64; 2]| {
+                [0, 1].map(|axis| dot(&bearing.shape, shaft[axis]) - under[axis])
+            };
+            let displacement = relative([x, y], under(at.deflection));
+            let velocity = relative([vx, vy], under(at.rate));
+            let parts = [
                 product(&difference(&now.stiffness, &used.stiffness), displacement),
                 product(&difference(&now.damping, &used.damping), velocity),
                 product(&now.stiffness, base.displacement).map(|force| -force),
                 product(&now.damping, base.velocity).map(|force| -force),
             ];
-            for force in forces {
-                push(shape, force);
+            let force = [0, 1].map(|axis| parts.iter().map(|part| part[axis]).sum());
+            push(&bearing.shape, force);
+            if let Some(first) = bearing.held {
+                for (axis, force) in force.into_iter().enumerate() {
+                    on_housing[first - lateral.end + axis] = -force;
+                }
             }
         }
     }

@@ -132,7 +132,7 @@ impl Slave {
     }
 
     fn no_inputs(&self) -> Inputs {
-        Inputs::at_rest(vec![0.0; self.design.torques.len()], self.design.bearings)
+        self.design.inputs(vec![0.0; self.design.torques.len()])
     }
 }
 

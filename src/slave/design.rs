@@ -3,7 +3,7 @@
 use super::Error;
 use crate::config::{Config, Problem};
 use crate::interface::{Interface, Parameter, Quantity, Variable};
-use crate::model::ModalModel;
+use crate::model::{Inputs, ModalModel};
 use crate::rotor::ModeCounts;
 use crate::train::{SpeedRatio, speed_ratios, validate};
 
@@ -17,7 +17,6 @@ pub(super) struct Design {
     pub(super) mode_counts: Vec<ModeCounts>,
     pub(super) ratios: Vec<SpeedRatio>,
     pub(super) torques: Vec<f64>,
-    pub(super) bearings: usize,
     pub(super) model: ModalModel,
 }
 
@@ -37,7 +36,6 @@ impl Design {
                 .flat_map(|rotor| &rotor.torques)
                 .map(|torque| torque.value)
                 .collect(),
-            bearings: model.bearings().count(),
             interface,
             config,
             model,
@@ -51,6 +49,11 @@ impl Design {
                 "value reference {reference} is unknown to this FMU"
             ))
         })
+    }
+
+    /// These torques, and nothing else from outside.
+    pub(super) fn inputs(&self, torques: Vec<f64>) -> Inputs {
+        self.model.inputs_at_rest(torques)
     }
 
     /// All parameters in the order of the table.

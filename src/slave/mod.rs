@@ -78,7 +78,7 @@ impl Slave {
             Error::new("the model inside this library cannot be read; the file is damaged")
         })?;
         let design = Design::of(config)?;
-        let inputs = Inputs::at_rest(design.torques.clone(), design.bearings);
+        let inputs = design.inputs(design.torques.clone());
         Ok(Slave {
             config: design.config.clone(),
             inputs,
@@ -159,7 +159,7 @@ impl Slave {
     /// fmi2Reset: as after instantiation.
     pub fn reset(&mut self) {
         self.config.clone_from(&self.design.config);
-        self.inputs = Inputs::at_rest(self.design.torques.clone(), self.design.bearings);
+        self.inputs = self.design.inputs(self.design.torques.clone());
         self.rate = None;
         self.life_cycle = LifeCycle::Instantiated;
         self.experiment = None;

@@ -33,7 +33,7 @@ pub struct SavedState {
 
 const MAGIC: &[u8; 16] = b"geartrain state\0";
 /// Changes whenever the content of a saved state does.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Magic, version, length, checksum.
 const HEADER: usize = 16 + 4 + 8 + 32;
 
@@ -170,13 +170,18 @@ fn misfit() -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::BaseMotion;
 
     fn sample() -> SavedState {
         SavedState {
             guid: "{a}".to_string(),
             parameters: vec![1.0, -2.5],
             tolerance_set: true,
-            inputs: Inputs::at_rest(vec![3.0], 2),
+            inputs: Inputs {
+                torques: vec![3.0],
+                bases: vec![BaseMotion::default(); 2],
+                forces: vec![[0.5, -1.0]],
+            },
             rate: None,
             experiment: None,
             life_cycle: LifeCycle::Instantiated,

@@ -56,6 +56,14 @@ impl Row {
         any.then(|| part.values.clone())
     }
 
+    /// The number of the block that it touches; `None` where there are several or none.
+    pub fn only_block(&self) -> Option<usize> {
+        match self.parts.as_slice() {
+            [part] => Some(part.block),
+            _ => None,
+        }
+    }
+
     /// All entries of a system of this size.
     pub fn to_dense(&self, size: usize) -> Vec<f64> {
         let mut dense = vec![0.0; size];

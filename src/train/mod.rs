@@ -7,6 +7,7 @@
 mod basis;
 mod bearings;
 mod centres;
+mod housing;
 mod laws;
 mod meshes;
 mod names;
@@ -18,13 +19,14 @@ mod tooth_geometry;
 mod validate;
 
 use crate::config::{
-    self, BasisModes, BasisSupport, Bow, Config, Disk, GearboxVibration, Lines, Material, Probe,
-    Problem, Simulation, Torque, TorqueCoupling, Unbalance,
+    self, BasisModes, BasisSupport, Bow, Config, Disk, Files, GearboxVibration, Lines, Material,
+    Probe, Problem, Simulation, Torque, TorqueCoupling, Unbalance,
 };
 use crate::mesh::{LineOfAction, StiffnessLaw, TransmissionError};
 
 pub use bearings::{Bearing, BearingLaw, CoefficientCurves, Coefficients};
 pub use centres::centres;
+pub use housing::{Housing, HousingMode, HousingPoint};
 pub use rotors::SAME_PLACE;
 pub use speeds::{SpeedRatio, speed_ratios};
 pub use validate::validate;
@@ -46,6 +48,8 @@ pub struct GearTrain {
     pub meshes: Vec<Mesh>,
     /// Sinusoidal motion of all bearing supports.
     pub gearbox_vibration: GearboxVibration,
+    /// The structure around the rotors, or the one that is all.
+    pub housing: Option<Housing>,
 }
 
 /// What represents each rotor.
@@ -186,24 +190,40 @@ impl GearTrain {
         )
     }
 
+    /// Whether a bearing stands on the housing in this model; all rotors' bearings count, in their order.
+    pub fn is_held(&self, bearing: usize) -> bool {
+        let housing = self.housing.as_ref();
+        housing.is_some_and(|housing| housing.holds[bearing].is_some())
+    }
+
     /// The gear at an address.
     pub fn gear(&self, address: GearAddress) -> &Gear {
         &self.rotors[address.rotor].gears[address.gear]
     }
 }
 
-/// Reads and validates the text of a model file; all problems at once, each with its line.
+/// Reads and validates the text of a model file that names no other file; all problems at once, each with its line.
 pub fn load(text: &str) -> Result<Loaded, Vec<Problem>> {
+    load_beside(text, &no_files)
+}
+
+/// No other files are at hand.
+pub fn no_files(file: &str) -> Result<String, String> {
+    Err(format!("\"{file}\" is not at hand"))
+}
+
+/// The same for one that may name others, whose texts `files` gives.
+pub fn load_beside(text: &str, files: Files<'_>) -> Result<Loaded, Vec<Problem>> {
     let config::Reading {
         config,
         mut problems,
         lines,
-    } = config::read(text);
+    } = config::read(text, files);
     let Some(config) = config else {
         return Err(problems);
     };
     let located = |mut problem: Problem| {
-        problem.spot = lines.find(&problem.key);
+        problem.spot = lines.find(problem.file.as_deref(), &problem.key);
         problem
     };
     match validate(&config) {
@@ -219,11 +239,15 @@ pub fn load(text: &str) -> Result<Loaded, Vec<Problem>> {
         Ok(_) => Err(problems),
         Err(found) => {
             // A key that could not be read has its problem already; its placeholder breaks rules too.
-            let unread: Vec<String> = problems.iter().map(|problem| problem.key.clone()).collect();
+            let unread: Vec<(Option<String>, String)> = problems
+                .iter()
+                .map(|problem| (problem.file.clone(), problem.key.clone()))
+                .collect();
             let news = found.into_iter().filter(|problem| {
-                !unread
-                    .iter()
-                    .any(|key| problem.key == *key || starts_below(&problem.key, key))
+                !unread.iter().any(|(file, key)| {
+                    let inside = problem.key == *key || starts_below(&problem.key, key);
+                    inside && problem.file == *file
+                })
             });
             problems.extend(news.map(located));
             problems.sort_by_key(|problem| problem.spot);

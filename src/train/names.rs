@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::config::{Config, Place, Problem, Rotor};
 
-/// Names beside the rotors and meshes.
-const RESERVED_AT_TOP: [&str; 4] = ["simulation", "gearbox_vibration", "time", "der"];
+/// Names beside the rotors, meshes and points of the housing.
+const RESERVED_AT_TOP: [&str; 5] = ["simulation", "gearbox_vibration", "housing", "time", "der"];
 
 /// Names beside the elements of a rotor.
 const RESERVED_ON_ROTOR: [&str; 9] = [
@@ -35,7 +35,10 @@ pub(super) fn check(config: &Config, problems: &mut Vec<Problem>) {
         let rule = "description: must be one line without control characters";
         problems.push(root.problem("description", format!("{rule}, found {letter:?}")));
     }
-    let mut top = Namespace::new(&RESERVED_AT_TOP, "among rotors and meshes");
+    let mut top = Namespace::new(
+        &RESERVED_AT_TOP,
+        "among rotors, meshes and points of the housing",
+    );
     for (index, rotor) in config.rotors.iter().enumerate() {
         let place = root.element("rotor", index, Some(&rotor.name));
         top.claim(&place, &rotor.name, problems);
@@ -47,6 +50,12 @@ pub(super) fn check(config: &Config, problems: &mut Vec<Problem>) {
             &mesh.name,
             problems,
         );
+    }
+    if let Some(housing) = &config.housing {
+        for (index, point) in housing.points.iter().enumerate() {
+            let place = housing.place().element("point", index, Some(&point.name));
+            top.claim(&place, &point.name, problems);
+        }
     }
 }
 

@@ -5,20 +5,21 @@
 
 use super::basis::{check_basis, resolve_basis};
 use super::centres::open_loops;
+use super::housing::{points_at_rest, resolve_housing};
 use super::meshes::{resolve_mesh, rings_meshed_from_outside};
 use super::phases;
 use super::rotors::resolve_rotor;
 use super::rules::Rules;
 use super::speeds::{check_speeds, unequal_base_pitches};
 use super::{GearTrain, names, speed_ratios};
-use crate::config::{self, Config, Place, Problem, SpeedMode};
+use crate::config::{Config, Kind, Place, Problem, SolverChoice, SpeedMode};
 
 /// Checks a configuration against every rule. Gives the train and warnings, or all problems.
 pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Problem>> {
     let mut problems = Vec::new();
     names::check(config, &mut problems);
     let root = Place::root();
-    check_simulation(&root.table("simulation"), &config.simulation, &mut problems);
+    check_simulation(&root.table("simulation"), config, &mut problems);
     check_basis(config.basis.as_ref(), &mut problems);
     check_vibration(config, &mut problems);
     for (name, material) in &config.materials {
@@ -34,7 +35,7 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
             format!("must be greater than -1 and at most 0.5, found {nu}")
         });
     }
-    if config.rotors.is_empty() {
+    if config.kind == Kind::GearTrain && config.rotors.is_empty() {
         problems.push(root.problem(
             "rotor",
             "rotor: at least one [[rotor]] is needed".to_string(),
@@ -56,6 +57,8 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
             &mut problems,
         ));
     }
+    let housing = config.housing.as_ref();
+    let housing = housing.map(|housing| resolve_housing(housing, config, &mut problems));
     if problems.is_empty() {
         check_speeds(&rotors, &meshes, &mut problems);
     }
@@ -70,6 +73,7 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
         rotors,
         meshes,
         gearbox_vibration: config.gearbox_vibration,
+        housing,
     };
     let mut warnings = phases::settle(config, &mut train);
     warnings.extend(rings_meshed_from_outside(&train));
@@ -83,11 +87,24 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
         return Err(unequal);
     }
     warnings.extend(bows_without_force(&train));
+    if let Some(housing) = &train.housing {
+        warnings.extend(points_at_rest(config, housing));
+    }
     Ok((train, warnings))
 }
 
-fn check_simulation(place: &Place, simulation: &config::Simulation, problems: &mut Vec<Problem>) {
+fn check_simulation(place: &Place, config: &Config, problems: &mut Vec<Problem>) {
+    let simulation = &config.simulation;
     let mut rules = Rules { place, problems };
+    if config.kind == Kind::Housing {
+        let (speed, solver) = (simulation.speed, simulation.solver);
+        rules.ensure("speed", speed == SpeedMode::Prescribed, || {
+            "a housing has no rotation, leave this key away".to_string()
+        });
+        rules.ensure("solver", solver == SolverChoice::Exponential, || {
+            "the modes of a housing are solved exactly, leave this key away".to_string()
+        });
+    }
     let tolerance = simulation.tolerance;
     rules.ensure("tolerance", (1e-12..=0.1).contains(&tolerance), || {
         format!(

@@ -108,14 +108,15 @@ def test_uncoupled_frequencies(packed, case):
         assert abs(result[variable][0] / value - 1) < 1e-7, variable
 
 
-# Scales below these are rounding: of what no force reaches, or does not turn against its rotor [N, N m, m, rad]; and of
+# Scales below these are rounding: of what no force reaches, or does not turn against its rotor [N, N m, m, m/s, m/s^2, rad]; and of
 # the speed of a rotor that nothing drives, for the reference's own tolerance [rad/s].
-ROUNDING = dict(force=1e-3, mesh_torque=1e-3, displacement=1e-10, deflection=1e-10, theta=1e-7, angle=1e-7, speed=1e-2, stiffness=1.0)
+ROUNDING = dict(force=1e-3, mesh_torque=1e-3, displacement=1e-10, velocity=1e-7, acceleration=1e-3, deflection=1e-10, theta=1e-7, angle=1e-7, speed=1e-2, stiffness=1.0)
 
 
 def family(key):
     """Outputs of one kind are measured by a common scale."""
-    return {"x": "displacement", "y": "displacement"}.get(last := key.rsplit(".", 1)[-1], last.removesuffix("_x").removesuffix("_y"))
+    motions = {end: name for name, ends in dict(displacement="x y", velocity="vx vy", acceleration="ax ay").items() for end in ends.split()}
+    return motions.get(last := key.rsplit(".", 1)[-1], last.removesuffix("_x").removesuffix("_y"))
 
 
 def scales(exact, size):

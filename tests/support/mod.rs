@@ -11,7 +11,7 @@ pub mod slave;
 use geartrain::config::{self, Start};
 use geartrain::model::{Inputs, ModalModel};
 use geartrain::simulation::Simulation;
-use geartrain::train::{Loaded, load};
+use geartrain::train::{Loaded, load_beside};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// The paper's example.
@@ -22,14 +22,23 @@ pub fn three_stage() -> String {
 
 /// A two-step train that rings long after a start from rest: two of its shafts have no damping.
 pub fn compound() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/compound.toml");
-    std::fs::read_to_string(path).expect("the model is part of the repository")
+    model_file("compound.toml")
 }
 
 /// A sun, two planets on a fixed carrier and the ring around them.
 pub fn star() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/star.toml");
-    std::fs::read_to_string(path).expect("the model is part of the repository")
+    model_file("star.toml")
+}
+
+/// A file of tests/models.
+pub fn model_file(name: &str) -> String {
+    beside(name).expect("the model is part of the repository")
+}
+
+/// What a model file of the tests may name.
+pub fn beside(name: &str) -> Result<String, String> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models");
+    std::fs::read_to_string(format!("{folder}/{name}")).map_err(|error| error.to_string())
 }
 
 /// The example with gearbox vibration and large imbalance: case 4 of the paper.
@@ -78,7 +87,7 @@ pub fn gear_pair(modes: usize, law: &str, extra: &str) -> String {
 
 /// Loads a model that must be valid.
 pub fn valid(text: &str) -> Loaded {
-    load(text).unwrap_or_else(|problems| panic!("{problems:#?}"))
+    load_beside(text, &beside).unwrap_or_else(|problems| panic!("{problems:#?}"))
 }
 
 pub fn assembled(text: &str) -> ModalModel {
@@ -89,10 +98,7 @@ pub fn assembled(text: &str) -> ModalModel {
 pub fn file_inputs(text: &str) -> Inputs {
     let loaded = valid(text);
     let torques = loaded.train.rotors.iter().flat_map(|rotor| &rotor.torques);
-    Inputs::at_rest(
-        torques.map(|torque| torque.value).collect(),
-        assembled(text).bearings().count(),
-    )
+    assembled(text).inputs_at_rest(torques.map(|torque| torque.value).collect())
 }
 
 /// A simulation as the file describes it, with another tolerance.

@@ -22,11 +22,10 @@ impl Run {
             SolverChoice::Exponential => Integrator::exponential(&model.system, model.harmonics()),
             SolverChoice::Newmark => Integrator::newmark(&model.system),
         };
-        let bearings = model.bearings().count();
         let position = vec![0.0; model.system.size];
         let state = solver.state_at(&model.system, 0.0, position, model.rigid_velocity());
         Run {
-            inputs: Inputs::at_rest(torques, bearings),
+            inputs: model.inputs_at_rest(torques),
             state,
             tolerance,
             solver,

@@ -2,14 +2,12 @@
 
 use geartrain::interface::{Causality, Interface};
 use geartrain::slave::{Experiment, Slave};
-use geartrain::train::load;
 
 use super::{assembled, valid};
 
 /// A slave just instantiated.
 pub fn born(text: &str) -> Slave {
-    let loaded = load(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
-    Slave::new(&loaded.config.to_bytes()).expect("a packed model is valid")
+    Slave::new(&valid(text).config.to_bytes()).expect("a packed model is valid")
 }
 
 /// A slave in initialization mode, with its variables.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use geartrain::config::{Basis, BasisModes, Config, Start, TorqueCoupling};
-use geartrain::model::{Inputs, ModalModel};
+use geartrain::model::ModalModel;
 use geartrain::simulation::Simulation;
 use geartrain::train::{GearTrain, load, validate};
 
@@ -67,10 +67,7 @@ impl Variant {
         let train = self.train();
         let model = ModalModel::assemble(&train, None).expect("the example has modes");
         let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
-        let inputs = Inputs::at_rest(
-            torques.map(|torque| torque.value).collect(),
-            model.bearings().count(),
-        );
+        let inputs = model.inputs_at_rest(torques.map(|torque| torque.value).collect());
         Simulation::start(model, inputs, &train.simulation, 0.0).expect("it has an equilibrium")
     }
 

@@ -9,6 +9,7 @@ mod golden;
 mod importers;
 mod inspect;
 mod merge;
+mod model_file;
 mod new;
 mod pack;
 mod platforms;

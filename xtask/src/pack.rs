@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use fmu_build::{Binary, Builder, Fmu, Library, Platform, linked_crates};
-use geartrain::config::Problem;
 use geartrain::package::{Package, PackageError};
 
+use crate::model_file::ModelFile;
 use crate::python::Environment;
 use crate::{shell, workspace};
 
@@ -59,10 +59,8 @@ pub fn pack(
     out: &Path,
     platforms: &[Platform],
 ) -> Result<Vec<PathBuf>, String> {
-    let packages: Vec<Result<(Package, &PathBuf), String>> = models
-        .iter()
-        .map(|path| describe(path).map(|package| (package, path)))
-        .collect();
+    let packages: Vec<Result<(Package, ModelFile), String>> =
+        models.iter().map(|path| describe(path)).collect();
     let problems: Vec<&str> = packages
         .iter()
         .filter_map(|package| package.as_ref().err())
@@ -93,10 +91,14 @@ pub fn pack(
     }
     let licenses = licenses()?;
     let mut written = Vec::new();
-    for (package, model) in packages.into_iter().flatten() {
+    for (package, file) in packages.into_iter().flatten() {
         let mut documents = licenses.clone();
         documents.push(document("index.html", package.documentation.clone()));
-        documents.push(document("model.toml", shell::read(model)?));
+        documents.push(document("model.toml", file.text.clone()));
+        for name in &package.named_files {
+            let own = Path::new(name).file_name().unwrap_or_default();
+            documents.push(document(&own.to_string_lossy(), file.beside(name)?));
+        }
         let binaries = libraries.iter();
         let binaries = binaries.map(|(platform, files)| binary(&package, *platform, files));
         let fmu = Fmu {
@@ -146,29 +148,17 @@ fn binary(package: &Package, platform: Platform, files: &[Vec<u8>]) -> Result<Bi
 }
 
 /// Reads and checks a model file; warnings are printed, problems are the error.
-pub fn describe(path: &Path) -> Result<Package, String> {
-    let text = shell::read(path)?;
-    let package = Package::of(&text).map_err(|error| match error {
-        PackageError::Invalid(problems) => located(path, &text, "", &problems),
+pub fn describe(path: &Path) -> Result<(Package, ModelFile), String> {
+    let file = ModelFile::read(path)?;
+    let beside = |name: &str| file.beside(name);
+    let package = Package::of(&file.text, &beside).map_err(|error| match error {
+        PackageError::Invalid(problems) => file.located("", &problems),
         PackageError::Irreducible(error) => format!("{}: {error}", path.display()),
     })?;
     if !package.warnings.is_empty() {
-        eprintln!("{}", located(path, &text, "warning: ", &package.warnings));
+        eprintln!("{}", file.located("warning: ", &package.warnings));
     }
-    Ok(package)
-}
-
-/// Every problem as `file:line: place: message`, with `kind` before the place, and its line of the file below it.
-pub fn located(path: &Path, text: &str, kind: &str, problems: &[Problem]) -> String {
-    let file = path.display();
-    let shown = |problem: &Problem| match problem.spot {
-        Some(spot) => {
-            let line = spot.line;
-            format!("{file}:{line}: {kind}{problem}\n{}", spot.excerpt(text))
-        }
-        None => format!("{file}: {kind}{problem}"),
-    };
-    problems.iter().map(shown).collect::<Vec<_>>().join("\n")
+    Ok((package, file))
 }
 
 /// Our own licence, and those of what is linked into the library.

@@ -6,7 +6,7 @@ use geartrain::config;
 use geartrain::config::SolverChoice::{self, Exponential, Newmark};
 use geartrain::interface::{Interface, Quantity};
 use geartrain::simulation::Simulation;
-use geartrain::train::{Loaded, load};
+use geartrain::train::{Loaded, load_beside};
 
 use crate::models::{read, workspace};
 use crate::problem::started;
@@ -125,9 +125,16 @@ fn files() -> Result<Vec<PathBuf>, String> {
     Ok(files)
 }
 
+/// The text of a file that a model file of the tests names.
+fn beside(file: &str) -> Result<String, String> {
+    let path = workspace().join("tests/models").join(file);
+    std::fs::read_to_string(path).map_err(|error| error.to_string())
+}
+
 /// The forces that a model file leads to.
 fn forces(text: &str, solver: SolverChoice, tolerance: f64, stride: u32) -> Result<Forces, String> {
-    let Loaded { config, train, .. } = load(text).map_err(|problems| format!("{problems:?}"))?;
+    let Loaded { config, train, .. } =
+        load_beside(text, &beside).map_err(|problems| format!("{problems:?}"))?;
     let settings = config::Simulation {
         solver,
         ..config.simulation.clone()

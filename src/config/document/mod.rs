@@ -17,6 +17,7 @@ use super::spot::{Lines, Text};
 
 /// A parsed file, with the problems found so far.
 pub(super) struct Document<'t> {
+    root: Place,
     text: Text<'t>,
     problems: RefCell<Vec<Problem>>,
     lines: RefCell<Lines>,
@@ -31,8 +32,10 @@ pub(super) struct Table<'d, 't> {
 }
 
 impl<'t> Document<'t> {
-    pub(super) fn new(text: &'t str) -> Document<'t> {
+    /// The document whose top has this place.
+    pub(super) fn new(root: Place, text: &'t str) -> Document<'t> {
         Document {
+            root,
             text: Text::new(text),
             problems: RefCell::default(),
             lines: RefCell::default(),
@@ -48,12 +51,9 @@ impl<'t> Document<'t> {
         for error in errors {
             let spot = error.span().map(|span| self.text.spot(span));
             let message = format!("not valid TOML: {}", error.message().replace('\n', ", "));
-            let (key, place) = (String::new(), String::new());
             self.problems.borrow_mut().push(Problem {
                 spot,
-                key,
-                place,
-                message,
+                ..self.root.problem("", message)
             });
         }
         None
@@ -64,7 +64,7 @@ impl<'t> Document<'t> {
             document: self,
             entries,
             asked: RefCell::default(),
-            place: Place::root(),
+            place: self.root.clone(),
         }
     }
 
@@ -186,6 +186,36 @@ impl<'d, 't> Table<'d, 't> {
         tables
     }
 
+    /// The entries of the table under `key`, each what `meaning` makes of it; others break the rule.
+    fn named<T>(
+        &self,
+        key: &'static str,
+        rule: &str,
+        meaning: impl Fn(&DeValue<'_>) -> Option<T>,
+    ) -> Vec<(String, T)> {
+        let Some(table) = self.table(key) else {
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        for (name, value) in table.entries {
+            let name = name.get_ref().to_string();
+            table.note(&table.place.key(&name), value.span());
+            match meaning(value.get_ref()) {
+                Some(value) => found.push((name, value)),
+                None => {
+                    table.wrong_type(&name, rule, value.get_ref(), ());
+                }
+            }
+        }
+        found
+    }
+
+    /// The strings `name = "string"` under `key`.
+    pub(super) fn named_strings(&self, key: &'static str) -> Vec<(String, String)> {
+        let string = |value: &DeValue<'_>| value.as_str().map(str::to_string);
+        self.named(key, "must be a string", string)
+    }
+
     /// The tables `[[key]]`; in words by their `name`, where they have one.
     pub(super) fn tables(&self, key: &'static str) -> Vec<Table<'d, 't>> {
         let Some(value) = self.value(key) else {
@@ -214,16 +244,6 @@ impl<'d, 't> Table<'d, 't> {
         tables
     }
 
-    /// Refuses a key of the documented format that this version cannot honour.
-    pub(super) fn not_yet(&self, key: &'static str, what: &str) {
-        if self.has(key) {
-            self.problem(
-                key,
-                format!("{what} is not available yet in this version of geartrain"),
-            );
-        }
-    }
-
     /// Reports a problem with one of the table's keys; the message follows the key's name.
     pub(super) fn problem(&self, key: &str, message: impl AsRef<str>) {
         self.push(
@@ -240,6 +260,11 @@ impl<'d, 't> Table<'d, 't> {
             ..self.place.problem(key, message)
         };
         self.document.problems.borrow_mut().push(problem);
+    }
+
+    /// Marks keys as known that mean nothing here.
+    pub(super) fn skip(&self, keys: &[&'static str]) {
+        self.asked.borrow_mut().extend(keys);
     }
 
     /// Reports every key that nobody asked for.
@@ -289,17 +314,19 @@ impl<'d, 't> Table<'d, 't> {
     }
 
     fn push(&self, mut problem: Problem) {
-        problem.spot = self.document.lines.borrow().find(&problem.key);
+        let lines = self.document.lines.borrow();
+        problem.spot = lines.find(self.place.file(), &problem.key);
         self.document.problems.borrow_mut().push(problem);
     }
 
     /// Keeps where a key path stands.
     fn note(&self, key: &str, span: Range<usize>) {
         let spot = self.document.text.spot(span);
-        self.document
-            .lines
-            .borrow_mut()
-            .insert(key.to_string(), spot);
+        self.document.lines.borrow_mut().insert(
+            self.place.file().map(str::to_string),
+            key.to_string(),
+            spot,
+        );
     }
 
     /// The key path without element numbers, as TOML headers are written.

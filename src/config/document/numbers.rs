@@ -63,6 +63,15 @@ impl Table<'_, '_> {
         Some(array.iter().map(one).collect())
     }
 
+    /// The pairs of plain numbers `name = [x, y]` under `key`.
+    pub(in crate::config) fn named_pairs(&self, key: &'static str) -> Vec<(String, [f64; 2])> {
+        self.named(key, "must be a list of two numbers", |value| {
+            let items = value.as_array()?.iter();
+            let numbers: Option<Vec<f64>> = items.map(|item| plain(item.get_ref())).collect();
+            numbers?.try_into().ok()
+        })
+    }
+
     /// A number as the file writes it, without the quotes of a string.
     pub(in crate::config) fn as_written(&self, key: &'static str) -> Option<&str> {
         match self.value(key)? {
@@ -84,12 +93,18 @@ impl Table<'_, '_> {
 }
 
 fn number(value: &DeValue<'_>, kind: &Dimension, rule: &str) -> Result<f64, String> {
-    let number = match value {
-        DeValue::String(text) => return quantity(text, kind),
+    if let DeValue::String(text) = value {
+        return quantity(text, kind);
+    }
+    plain(value).ok_or_else(|| format!("{rule}, found {}", show(value)))
+}
+
+/// A number without unit.
+fn plain(value: &DeValue<'_>) -> Option<f64> {
+    match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
         _ => integer(value).map(|whole| whole as f64),
-    };
-    number.ok_or_else(|| format!("{rule}, found {}", show(value)))
+    }
 }
 
 fn integer(value: &DeValue<'_>) -> Option<i64> {

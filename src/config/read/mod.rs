@@ -1,16 +1,24 @@
 //! From the text of a model file to a [`Config`]: which keys exist, their types and defaults.
 
+mod housing;
 mod mesh;
 mod rotor;
 mod tooth_geometry;
 
+use std::collections::BTreeMap;
+
 use super::dimension::{ANGLE, DENSITY, FREQUENCY, LENGTH, NUMBER, PRESSURE, TIME};
 use super::document::{Document, Table};
+use super::place::Place;
 use super::spot::Lines;
 use super::{
-    Basis, BasisModes, Config, GearboxVibration, Material, Problem, Simulation, SolverChoice,
+    Basis, BasisModes, Config, GearboxVibration, Kind, Material, Problem, Simulation, SolverChoice,
     SpeedMode, Start,
 };
+
+pub use housing::Files;
+
+use housing::Beside;
 
 /// What a model file says, and what is wrong with it.
 #[derive(Debug)]
@@ -24,14 +32,18 @@ pub struct Reading {
     pub lines: Lines,
 }
 
-/// Reads the text of a model file.
-pub fn read(text: &str) -> Reading {
-    let document = Document::new(text);
-    let parsed = document.parse();
-    let config = parsed
-        .as_ref()
-        .map(|entries| top(document.top(entries.get_ref())));
-    let (problems, lines) = document.into_findings();
+const KINDS: [(&str, Kind); 2] = [("gear_train", Kind::GearTrain), ("housing", Kind::Housing)];
+
+/// Reads the text of a model file, and with `files` those that it names.
+pub fn read(text: &str, files: Files<'_>) -> Reading {
+    let document = Document::new(Place::root(), text);
+    let mut beside = Beside::default();
+    let config = document
+        .parse()
+        .map(|entries| top(document.top(entries.get_ref()), files, &mut beside));
+    let (mut problems, mut lines) = document.into_findings();
+    problems.extend(beside.problems);
+    lines.extend(beside.lines);
     Reading {
         config,
         problems,
@@ -39,15 +51,42 @@ pub fn read(text: &str) -> Reading {
     }
 }
 
-fn top(table: Table<'_, '_>) -> Config {
-    let kinds = [("gear_train", true), ("housing", false)];
-    if table.choice("kind", None, &kinds) == Some(false) {
-        table.not_yet("kind", "kind = \"housing\"");
+fn top(table: Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -> Config {
+    let kind = table.choice("kind", None, &KINDS);
+    let config = if kind == Some(Kind::Housing) {
+        housing_alone(&table, files, beside)
+    } else {
+        gear_train(&table, files, beside)
+    };
+    table.finish();
+    config
+}
+
+fn housing_alone(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -> Config {
+    Config {
+        kind: Kind::Housing,
+        name: table.string("name"),
+        description: table.optional_string("description").unwrap_or_default(),
+        simulation: simulation(table.table("simulation")),
+        basis: None,
+        materials: BTreeMap::new(),
+        rotors: Vec::new(),
+        meshes: Vec::new(),
+        gearbox_vibration: gearbox_vibration(None),
+        housing: Some(housing::alone(table, files, beside)),
     }
-    table.not_yet("housing", "an embedded housing");
+}
+
+fn gear_train(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -> Config {
     let simulation = simulation(table.table("simulation"));
     let free = simulation.speed == SpeedMode::Free;
-    let config = Config {
+    Config {
+        kind: Kind::GearTrain,
+        housing: table.table("housing").map(|table| {
+            let housing = housing::embedded(&table, files, beside);
+            table.finish();
+            housing
+        }),
         name: table.string("name"),
         description: table.optional_string("description").unwrap_or_default(),
         simulation,
@@ -68,9 +107,7 @@ fn top(table: Table<'_, '_>) -> Config {
             .collect(),
         meshes: table.tables("mesh").into_iter().map(mesh::mesh).collect(),
         gearbox_vibration: gearbox_vibration(table.table("gearbox_vibration")),
-    };
-    table.finish();
-    config
+    }
 }
 
 fn simulation(table: Option<Table<'_, '_>>) -> Simulation {

@@ -1,5 +1,6 @@
 //! The rows of the table, in the order in which a person would look for them.
 
+mod housing;
 mod modes;
 mod parameters;
 
@@ -25,17 +26,29 @@ pub(super) fn build(config: &Config, train: &GearTrain, model: &ModalModel) -> I
         config: &mut config,
     };
     table.inputs(train);
+    if let Some(housing) = &train.housing {
+        table.point_forces(housing);
+    }
     table.meshes(train);
     let mut input = 0;
     for (index, rotor) in train.rotors.iter().enumerate() {
         table.rotor_outputs(index, rotor, &mut input);
     }
+    if let Some(housing) = &train.housing {
+        table.points(housing);
+    }
     table.parameters(train);
+    if let Some(housing) = &train.housing {
+        table.housing_parameters(housing);
+    }
     for (index, (rotor, modal)) in train.rotors.iter().zip(&model.rotors).enumerate() {
         table.frequencies(index, rotor, modal);
     }
     for (rotor, modal) in train.rotors.iter().zip(&model.rotors) {
         table.modal_coordinates(rotor, modal);
+    }
+    if let Some(housing) = &model.housing {
+        table.housing_coordinates(housing);
     }
     Interface {
         variables: table.variables,
@@ -105,6 +118,10 @@ impl Table<'_> {
                 torque_number += 1;
             }
             for bearing in &rotor.bearings {
+                if train.is_held(bearing_number) {
+                    bearing_number += 1;
+                    continue;
+                }
                 let (port, place) = (
                     format!("{shaft}.{}.housing", bearing.name),
                     format!("bearing {} of {shaft}", bearing.name),

@@ -59,6 +59,13 @@ impl Table<'_> {
                 );
             }
         }
+        if !train.rotors.is_empty() {
+            self.run_parameters();
+        }
+    }
+
+    /// Parameters of the whole train.
+    fn run_parameters(&mut self) {
         let vibration = [
             (
                 "amplitude_x",

@@ -1,7 +1,9 @@
 """The model file with every default of design 2 and 8 filled in."""
 import copy
+import csv
 import math
 import tomllib
+from pathlib import Path
 
 TWO_PI = 2 * math.pi
 
@@ -13,13 +15,15 @@ def load(source):
     else:
         with open(source, "rb") as f:
             m = tomllib.load(f)
+        _housing(m, Path(source))
     sim = m.setdefault("simulation", {})
     sim.setdefault("speed", "prescribed")
     sim.setdefault("start", "equilibrium")
     vib = m.setdefault("gearbox_vibration", {})
     for key in ("amplitude_x", "amplitude_y", "phase_y", "frequency"):
         vib.setdefault(key, 0.0)
-    for r in m["rotor"]:
+    m.setdefault("housing", None)
+    for r in m.setdefault("rotor", []):
         _rotor(m, r)
     _meshes(m)
     mesh_hz = [abs(r["speed"]) * g["teeth"] / TWO_PI for r, g in (gear(m, k["gears"][0]) for k in m["mesh"])]
@@ -27,6 +31,34 @@ def load(source):
     basis.setdefault("static_shapes", False)
     basis.setdefault("max_frequency", max([1000.0] + [3 * f for f in mesh_hz]))        # a count of modes goes before it
     return m
+
+
+def _housing(m, path):
+    """"housing" becomes the points and modes of the structure, and the bearings that stand on it."""
+    connect = m.get("housing", {}).get("connect", {})
+    if "housing" in m:
+        path = path.parent / m["housing"]["file"]
+        structure = tomllib.loads(path.read_text())
+    elif m["kind"] == "housing":
+        structure = m
+    else:
+        return
+    modes = structure.get("mode", [])
+    if "modes" in structure:
+        modes = list(_modes(structure["modes"], path.parent))
+    m["housing"] = dict(point=structure["point"], mode=modes, connect=connect)
+
+
+def _modes(data, folder):
+    """The modes of a table: one line each."""
+    lines = [line for line in (folder / data["file"]).read_text().splitlines() if not line.startswith("#")]
+    for line in csv.DictReader(lines, skipinitialspace=True):
+        shape = {}
+        for title, value in line.items():
+            point, dot, axis = title.rpartition(".")
+            if dot:
+                shape.setdefault(point, [0.0, 0.0])["xy".index(axis)] = float(value)
+        yield dict(frequency=float(line["frequency"]), damping_ratio=float(line.get("damping_ratio", data.get("damping_ratio"))), shape=shape)
 
 
 def gear(model, path):

@@ -19,6 +19,7 @@ def outputs(s, times, states, base_motion):
             out[f"{name}.{g['name']}.mesh_torque"] = np.zeros(len(times))
     _bearings(s, times, q, v, speeds, base_motion, out)
     _meshes(s, times, q, v, out)
+    _housing(s, q, v, out)
     return out
 
 
@@ -27,14 +28,23 @@ def _bearings(s, times, q, v, speeds, base_motion, out):
     base = [s.base(t, base_motion) for t in times]
     for name, b in s.bearings.items():
         moved = np.array([motion[name] for motion in base]).reshape(-1, 4)
-        u = q @ b.rows.T
-        du, dv = u - moved[:, :2], v @ b.rows.T - moved[:, 2:]
+        du, dv = q @ b.rows.T - moved[:, :2], v @ b.rows.T - moved[:, 2:]
         force = np.zeros((len(times), 2))
         for i in range(len(times)):
             k, c = b.at_speed if b.linear else b.coefficients(speeds[i, b.rotor])
             force[i] = k @ du[i] + c @ dv[i] + (b.radial(du[i]) if b.radial else 0.0)
-        out[f"{name}.x"], out[f"{name}.y"] = u.T
+        out[f"{name}.x"], out[f"{name}.y"] = (q @ b.shaft.T).T
         out[f"{name}.force_x"], out[f"{name}.force_y"] = force.T
+
+
+def _housing(s, q, v, out):
+    """Without forces from outside; the accelerations are those that the bearings leave."""
+    force = sum((np.array([out[f"{name}.force_x"], out[f"{name}.force_y"]]).T @ s.points[point]
+                 for name, point in s.connect.items()), np.zeros_like(q))
+    a = force - v @ s.own_damping - q @ s.own_stiffness
+    for name, rows in s.points.items():
+        for kind, values in (("", q), ("v", v), ("a", a)):
+            out[f"{name}.{kind}x"], out[f"{name}.{kind}y"] = (values @ rows.T).T
 
 
 def _meshes(s, times, q, v, out):

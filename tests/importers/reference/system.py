@@ -20,11 +20,12 @@ TWO_PI = 2 * math.pi
 
 
 class Bearing:
-    """K and C over the speed of the rotor; `rows`: (x, y) of the shaft there; `radial`: nonlinear force or None;
-    `linear`: K and C do not change during a run."""
+    """K and C over the speed of the rotor; `shaft`: (x, y) of the shaft there; `rows`: relative to the housing of the model
+    under it; `radial`: nonlinear force or None; `linear`: K and C do not change during a run."""
 
-    def __init__(self, rotor, rows, data, free):
-        self.rotor, self.rows, self.coefficients = rotor, rows, coefficients(data)
+    def __init__(self, rotor, shaft, under, data, free):
+        self.rotor, self.shaft, self.rows, self.coefficients = rotor, shaft, shaft - under, coefficients(data)
+        self.held = bool(np.any(under))
         self.linear = not (free and "at_speed" in data)
         self.radial = RadialForce(data["nonlinear"]) if "nonlinear" in data else None
 
@@ -42,6 +43,9 @@ class System:
             self.at[name] = [slice(a, b) for a, b in zip(edges, edges[1:])]
             self.phi[name], self.frequencies[name] = (phi, phit), (lateral, torsional)
             self.n = int(edges[-1])
+        housing = self.model["housing"] or dict(point=[], mode=[], connect={})
+        self.eta = slice(self.n, self.n + len(housing["mode"]))
+        self.n = self.eta.stop
         n, count = self.n, len(self.rotors)
         self.mass, self.damping, self.stiffness, self.gyroscopic = (np.zeros((n, n)) for _ in range(4))
         self.owner = np.zeros(n, int)                                      # the rotor of each coordinate
@@ -49,6 +53,7 @@ class System:
         self.rigid = np.zeros((n, count))                                  # unit rotation of a whole rotor
         self.torque, self.torque_rows, self.bearings = np.zeros(n), {}, {}
         self.unbalance, self.bow = np.zeros((n, count), complex), np.zeros((n, count), complex)
+        self._housing(housing)
         for name, r in self.rotors.items():
             self._shaft(name, r)
             self._turning(name, r)
@@ -64,6 +69,20 @@ class System:
         self.vibration = vib["amplitude_x"], vib["amplitude_y"], vib["phase_y"], TWO_PI * vib["frequency"]
 
     # ------------------------------------------------------------ assembly
+    def _housing(self, housing):
+        """eta'' + 2 zeta w eta' + w^2 eta = psi' F; `points`: name -> (x, y) rows, `forces`: those on which forces act."""
+        w = TWO_PI * np.array([m["frequency"] for m in housing["mode"]])
+        zeta = np.array([m["damping_ratio"] for m in housing["mode"]])
+        self.mass[self.eta, self.eta] = np.eye(len(w))
+        self.stiffness[self.eta, self.eta] = np.diag(w ** 2)
+        self.damping[self.eta, self.eta] = np.diag(2 * zeta * w)
+        self.own_stiffness, self.own_damping = self.stiffness.copy(), self.damping.copy()
+        self.points, self.connect = {}, housing["connect"]
+        for p in housing["point"]:
+            self.points[p["name"]] = rows = np.zeros((2, self.n))
+            for i, m in enumerate(housing["mode"]):
+                rows[:, self.eta.start + i] = m["shape"].get(p["name"], [0.0, 0.0])
+
     def _shaft(self, name, r):
         (x, y, t), (phi, phit) = self.at[name], self.phi[name]
         for s in (x, y):
@@ -99,7 +118,10 @@ class System:
             self.damping += d["slope"] * np.outer(row, row)                # of theta': in free spin the whole speed
             self.torque_rows[f"{name}.{d['name']}"] = row, d["value"]
         for b in r.data["bearing"]:
-            self.bearings[f"{name}.{b['name']}"] = Bearing(self.index[name], self.rows(name, b["position"])[:2], b, self.free)
+            path = f"{name}.{b['name']}"
+            shaft = self.rows(name, b["position"])[:2]
+            under = self.points[self.connect[path]] if path in self.connect else 0 * shaft
+            self.bearings[path] = Bearing(self.index[name], shaft, under, b, self.free)
 
     def _linear_bearings(self):
         """K and C of the bearings that do not change, and how the gearbox pushes through them."""

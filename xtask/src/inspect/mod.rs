@@ -5,6 +5,7 @@
 
 mod basis;
 mod frequencies;
+mod housing;
 mod json;
 mod options;
 mod page;
@@ -19,8 +20,9 @@ use geartrain::analysis::{
 use geartrain::config::Config;
 use geartrain::model::ModalModel;
 use geartrain::rotor::ModalRotor;
-use geartrain::train::{GearTrain, Loaded, load};
+use geartrain::train::{GearTrain, Loaded, load_beside};
 
+use crate::model_file::ModelFile;
 use crate::{pack, shell};
 use options::{Format, Options};
 use published::Published;
@@ -51,18 +53,32 @@ struct BasisReport {
 pub fn command(arguments: &[&str]) -> Result<(), String> {
     let options = Options::parse(arguments)?;
     let path = &options.model;
-    pack::describe(path)?; // prints warnings
-    let inspection = Inspection::of_file(&options)?;
+    let (package, file) = pack::describe(path)?; // prints warnings
+    let loaded = load_file(path)?;
+    if let (true, Some(housing)) = (loaded.train.rotors.is_empty(), &loaded.train.housing) {
+        match options.format {
+            Format::Json => println!("{:#}", housing::report(&loaded.train.name, housing)),
+            Format::Text => housing::print(&loaded.train.name, housing),
+            Format::Html => write_page(&options, &loaded.train.name, &package.documentation)?,
+        }
+        return Ok(());
+    }
+    let inspection = Inspection::of_file(loaded, &options)?;
     match options.format {
         Format::Json => println!("{:#}", json::report(&inspection)),
         Format::Text => print_for_people(&inspection, path)?,
         Format::Html => {
-            let page = page::page(&inspection, &shell::read(path)?);
-            let file = options.out.join(format!("{}.html", inspection.train.name));
-            shell::write(&file, page.as_bytes())?;
-            println!("{}", file.display());
+            let page = page::page(&inspection, &file.text);
+            write_page(&options, &inspection.train.name, &page)?;
         }
     }
+    Ok(())
+}
+
+fn write_page(options: &Options, name: &str, page: &str) -> Result<(), String> {
+    let file = options.out.join(format!("{name}.html"));
+    shell::write(&file, page.as_bytes())?;
+    println!("{}", file.display());
     Ok(())
 }
 
@@ -72,15 +88,19 @@ pub fn as_json(path: &Path) -> Result<String, String> {
     let options = Options::parse(&[&word])?;
     Ok(format!(
         "{:#}",
-        json::report(&Inspection::of_file(&options)?)
+        json::report(&Inspection::of_file(load_file(path)?, &options)?)
     ))
 }
 
+fn load_file(path: &Path) -> Result<Loaded, String> {
+    let file = ModelFile::read(path)?;
+    let beside = |name: &str| file.beside(name);
+    load_beside(&file.text, &beside).map_err(|problems| file.located("", &problems))
+}
+
 impl Inspection {
-    fn of_file(options: &Options) -> Result<Inspection, String> {
+    fn of_file(loaded: Loaded, options: &Options) -> Result<Inspection, String> {
         let path = &options.model;
-        let text = shell::read(path)?;
-        let loaded = load(&text).map_err(|problems| pack::located(path, &text, "", &problems))?;
         Inspection::of(loaded, options).map_err(|message| format!("{}: {message}", path.display()))
     }
 
@@ -149,6 +169,7 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Lateral => "lateral",
         Kind::Torsional => "torsional",
         Kind::Mesh => "mesh",
+        Kind::Housing => "housing",
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use geartrain::package::{Package, PackageError};
 use geartrain::slave::{Experiment, Slave};
-use geartrain::train::load;
+use geartrain::train::load_beside;
 
 use crate::random::Random;
 use crate::{Fmu, STEP};
@@ -18,7 +18,7 @@ pub(super) fn case(_fmu: &Arc<Fmu>, seed: u64) {
     for _ in 0..=random.below(4) {
         text = changed(&text, &files[random.below(files.len())], random);
     }
-    match Package::of(&text) {
+    match Package::of(&text, &beside) {
         Ok(package) => {
             assert!(package.model_description.starts_with("<?xml"));
             live(&text);
@@ -36,7 +36,7 @@ pub(super) fn case(_fmu: &Arc<Fmu>, seed: u64) {
 
 /// The train of an accepted file: initialization and some steps succeed or fail in words.
 fn live(text: &str) {
-    let Ok(loaded) = load(text) else {
+    let Ok(loaded) = load_beside(text, &beside) else {
         panic!("accepted before");
     };
     let mut slave = Slave::new(&loaded.config.to_bytes()).expect("an accepted model");
@@ -56,6 +56,12 @@ fn live(text: &str) {
         }
     }
     assert!(slave.last_successful_time().is_finite());
+}
+
+/// The text of a file that a model file names: all of them stand in one folder.
+fn beside(file: &str) -> Result<String, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models");
+    std::fs::read_to_string(folder.join(file)).map_err(|error| error.to_string())
 }
 
 /// All model files of the repository.

@@ -64,7 +64,7 @@ pub fn expected(case: &Case) -> Vec<f64> {
     let model = ModalModel::assemble(&train, None).expect("the example has modes");
     let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
     let torques = torques.map(|torque| torque.value).collect();
-    let inputs = Inputs::at_rest(torques, model.bearings().count());
+    let inputs = model.inputs_at_rest(torques);
     let mut simulation = Simulation::start(model, inputs, &config.simulation, 0.0)
         .expect("the example has an equilibrium");
     let mut forces = Vec::new();

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 /// The point that a mode moves most, and how far in x and y [1/sqrt(kg)].
 fn loudest<'h>(housing: &'h Housing, mode: &HousingMode) -> (&'h str, [f64; 2]) {
-    let size = |[x, y]: &[f64; 2]| x.hypot(*y);
+    let size = |[x, y]: &[f64; 2]| x * x + y * y;
     let shapes = housing.points.iter().zip(&mode.shape);
     let most = shapes.max_by(|(_, one), (_, two)| size(one).total_cmp(&size(two)));
     most.map_or(("", [0.0; 2]), |(point, shape)| (&point.name, *shape))

@@ -6,6 +6,7 @@ from array import array
 
 import fmpy
 from fmpy.fmi2 import FMU2Slave
+from fmpy.validation import validate_fmu
 
 EVERY, TWICE = 16, 20
 
@@ -14,6 +15,7 @@ step, steps = int(nanoseconds) / 1e9, int(steps)
 inputs = [int(reference) for reference in inputs.split(",") if reference]
 reads = [int(reference) for reference in reads.split(",")]
 
+assert validate_fmu(path) == [], "FMPy finds problems"
 folder = fmpy.extract(path)
 description = fmpy.read_model_description(folder)
 assert description.guid == guid

@@ -153,7 +153,8 @@ fn sdk(zig: &Path, folder: &Path) -> Result<PathBuf, BuildError> {
     let functions = functions.replace("arm64e.x1-", "arm64-");
     let functions = functions.replace("arm64e-", "arm64-");
     std::fs::create_dir_all(&libraries).map_err(failed)?;
-    for name in ["libSystem", "libc", "libm"] {
+    // The crate libc asks for libiconv and uses nothing of it; what it used would be missed here.
+    for name in ["libSystem", "libc", "libm", "libiconv"] {
         let copy = libraries.join(format!("{name}.tbd"));
         std::fs::write(copy, &functions).map_err(failed)?;
     }

@@ -174,3 +174,20 @@ impl fmt::Display for BuildError {
 }
 
 impl std::error::Error for BuildError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_is_named_with_what_brings_it() {
+        let builder = Builder {
+            workspace: Path::new("no workspace"),
+            package: "m",
+            zig: None,
+        };
+        let missing = builder.portable(Platform::Linux64).unwrap_err().to_string();
+        let expected = "zig is missing: cargo-zigbuild and ziglang of the Python registry bring it";
+        assert_eq!(missing, expected);
+    }
+}

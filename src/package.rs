@@ -59,7 +59,7 @@ impl Package {
         let named = housing.flat_map(|housing| housing.file.iter().chain(&housing.modes_file));
         Ok(Package {
             named_files: named.cloned().collect(),
-            model_description: model_description(&config, &interface),
+            model_description: model_description(&config, &train, &model, &interface),
             documentation: documentation_page(&config, &train, &model, &interface),
             warnings,
             model: config.to_bytes(),

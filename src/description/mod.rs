@@ -2,6 +2,7 @@
 //! [`crate::interface`].
 
 pub mod html;
+mod nominal;
 mod page;
 mod xml;
 

@@ -4,12 +4,21 @@ use std::io;
 
 use quick_xml::events::{BytesDecl, Event};
 
+use super::nominal::Nominals;
 use super::{LOG_CATEGORIES, Xml, number, written};
 use crate::config::Config;
 use crate::interface::{Causality, Interface, OUTPUT_DERIVATIVE_ORDER, Unit, Variable};
+use crate::model::ModalModel;
+use crate::train::GearTrain;
 
 /// The text of modelDescription.xml.
-pub fn model_description(config: &Config, interface: &Interface) -> String {
+pub fn model_description(
+    config: &Config,
+    train: &GearTrain,
+    model: &ModalModel,
+    interface: &Interface,
+) -> String {
+    let nominals = Nominals::of(train, model);
     written(|xml| {
         xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         let guid = interface.fingerprint(config);
@@ -35,7 +44,7 @@ pub fn model_description(config: &Config, interface: &Interface) -> String {
                 units(xml)?;
                 log_categories(xml)?;
                 default_experiment(xml, config)?;
-                variables(xml, interface)?;
+                variables(xml, interface, &nominals)?;
                 structure(xml, config, interface)
             })?;
         Ok(())
@@ -126,18 +135,23 @@ fn default_experiment(xml: &mut Xml, config: &Config) -> io::Result<()> {
     Ok(())
 }
 
-fn variables(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
+fn variables(xml: &mut Xml, interface: &Interface, nominals: &Nominals<'_>) -> io::Result<()> {
     xml.create_element("ModelVariables")
         .write_inner_content(|xml| {
             for (reference, variable) in interface.variables.iter().enumerate() {
-                scalar_variable(xml, reference, variable)?;
+                scalar_variable(xml, reference, variable, nominals)?;
             }
             Ok(())
         })?;
     Ok(())
 }
 
-fn scalar_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::Result<()> {
+fn scalar_variable(
+    xml: &mut Xml,
+    reference: usize,
+    variable: &Variable,
+    nominals: &Nominals<'_>,
+) -> io::Result<()> {
     let (causality, variability, initial) = words(variable.causality());
     let reference = reference.to_string();
     let mut element = xml.create_element("ScalarVariable").with_attributes([
@@ -158,8 +172,17 @@ fn scalar_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::
         if let Some(display) = variable.unit.display() {
             real = real.with_attribute(("displayUnit", display.name));
         }
-        if let Some(start) = variable.start {
-            real = real.with_attribute(("start", number(start).as_str()));
+        let range = variable.quantity.range();
+        let numbers = [
+            ("min", range.min),
+            ("max", range.max),
+            ("nominal", nominals.value(variable.quantity)),
+            ("start", variable.start),
+        ];
+        for (name, value) in numbers {
+            if let Some(value) = value {
+                real = real.with_attribute((name, number(value).as_str()));
+            }
         }
         real.write_empty()?;
         Ok(())

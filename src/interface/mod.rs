@@ -7,6 +7,7 @@
 mod dependencies;
 mod fingerprint;
 mod parameter;
+mod range;
 mod table;
 mod unit;
 
@@ -15,6 +16,7 @@ use crate::model::{Change, Inputs, ModalModel, Motion};
 use crate::train::{GearAddress, GearTrain};
 
 pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
+pub use range::Range;
 pub use unit::{BaseUnit, DisplayUnit, Unit};
 
 /// The highest order of time derivatives of inputs: they change linearly in a step.

@@ -42,6 +42,17 @@ def test_the_documents_a_person_looks_for_are_inside(three_stage):
         assert f"<td>{variable.name}</td>" in page, variable.name
 
 
+def test_the_icon_is_a_picture_and_numbers_come_with_their_size(three_stage):
+    with zipfile.ZipFile(three_stage) as archive:
+        icon = archive.read("model.png")
+    assert icon.startswith(b"\x89PNG\r\n\x1a\n") and len(icon) < 8000
+    variables = {variable.name: variable for variable in fmpy.read_model_description(three_stage).modelVariables}
+    assert float(variables["mesh12.force"].nominal) == 1e4
+    assert float(variables["stage1.b1.stiffness.xx"].min) == 0.0
+    # An input is of the size that it is described with.
+    assert float(variables["stage1.drive.torque"].nominal) == 2e3
+
+
 def test_the_reader_of_model_files_stays_out_of_the_library(three_stage):
     with zipfile.ZipFile(three_stage) as archive:
         library = archive.read("binaries/linux64/three_stage.so")

@@ -6,6 +6,7 @@ mod bench;
 mod demo;
 mod fuzz;
 mod golden;
+mod icon;
 mod importers;
 mod inspect;
 mod merge;

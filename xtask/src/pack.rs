@@ -7,7 +7,7 @@ use geartrain::package::{Package, PackageError};
 
 use crate::model_file::ModelFile;
 use crate::python::Environment;
-use crate::{shell, workspace};
+use crate::{icon, shell, workspace};
 
 /// The linker for other platforms, as Python packages.
 pub const ZIG: &str = "fmu-build/requirements.txt";
@@ -90,9 +90,11 @@ pub fn pack(
         libraries.push((library.platform, files));
     }
     let licenses = licenses()?;
+    let icon = ("model.png".to_string(), icon::model_png()?);
     let mut written = Vec::new();
     for (package, file) in packages.into_iter().flatten() {
         let mut documents = licenses.clone();
+        documents.push(icon.clone());
         documents.push(document("index.html", package.documentation.clone()));
         documents.push(document("model.toml", file.text.clone()));
         for name in &package.named_files {

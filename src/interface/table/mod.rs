@@ -158,7 +158,7 @@ impl Table<'_> {
             let name = &mesh.name;
             let force = Quantity::MeshForce { mesh: index };
             let text = format!(
-                "Normal force of mesh {name} along the line of action, compression positive"
+                "Normal force of mesh {name} along the line of action; positive presses the teeth of the reference flank"
             );
             self.row(format!("{name}.force"), Unit::Newton, force, text);
             let gear_b = train.gear_name(mesh.gears[1]);
@@ -173,12 +173,14 @@ impl Table<'_> {
                 );
             }
             let text = format!(
-                "Tooth deflection of mesh {name} (dynamic transmission error), compression positive"
+                "Tooth deflection of mesh {name} along the line of action (dynamic transmission error), compression positive"
             );
             let quantity = Quantity::MeshDeflection { mesh: index };
             self.row(format!("{name}.deflection"), Unit::Meter, quantity, text);
             let quantity = Quantity::MeshStiffness { mesh: index };
-            let text = format!("Present stiffness of mesh {name}");
+            let text = format!(
+                "Stiffness of mesh {name} along the line of action at the present mesh phase"
+            );
             self.row(
                 format!("{name}.stiffness"),
                 Unit::NewtonPerMeter,
@@ -206,7 +208,7 @@ impl Table<'_> {
                 format!("{shaft}.{}.mesh_torque", gear.name),
                 Unit::NewtonMeter,
                 Quantity::GearTorque { gear: address },
-                format!("Sum of the mesh torques on {place}"),
+                format!("Torque of all meshes on {place}, positive about +z"),
             );
         }
         for (number, bearing) in rotor.bearings.iter().enumerate() {
@@ -252,7 +254,8 @@ impl Table<'_> {
         let speed = Quantity::Speed { rotor: index };
         let text = format!("Mean speed of {shaft}, positive about +z");
         self.row(format!("{shaft}.speed"), Unit::RadianPerSecond, speed, text);
-        let text = format!("Mean rotation angle of {shaft}, not wrapped");
+        let text =
+            format!("Mean rotation angle of {shaft}, positive about +z, counted on beyond a turn");
         self.row(
             format!("{shaft}.angle"),
             Unit::Radian,
@@ -272,7 +275,9 @@ impl Table<'_> {
                 text,
             );
         }
-        let text = format!("Torsional vibration of {place} on top of the mean rotation");
+        let text = format!(
+            "Rotation of {place} beyond the mean rotation of its shaft (torsional vibration)"
+        );
         self.row(
             format!("{prefix}.theta"),
             Unit::Radian,

@@ -18,7 +18,9 @@ impl Table<'_> {
         for mode in rigid..modal.counts.lateral_modes {
             let number = mode + 1 - rigid;
             let quantity = Quantity::LateralFrequency { rotor: index, mode };
-            let text = format!("Natural frequency of lateral mode {number} of {shaft} alone");
+            let text = format!(
+                "Natural frequency of lateral mode {number} of {shaft} by itself, without its meshes"
+            );
             self.row(
                 format!("{shaft}.lateral_frequency[{number}]"),
                 Unit::Hertz,
@@ -30,8 +32,9 @@ impl Table<'_> {
         for mode in rigid..modal.counts.torsional_modes {
             let number = mode + 1 - rigid;
             let quantity = Quantity::TorsionalFrequency { rotor: index, mode };
-            let text =
-                format!("Natural frequency of elastic torsional mode {number} of {shaft} alone");
+            let text = format!(
+                "Natural frequency of elastic torsional mode {number} of {shaft} by itself, without its meshes"
+            );
             self.row(
                 format!("{shaft}.torsional_frequency[{number}]"),
                 Unit::Hertz,

@@ -11,7 +11,10 @@ impl Table<'_> {
         for (index, rotor) in train.rotors.iter().enumerate() {
             let name = format!("{}.mean_speed", rotor.name);
             if ratios[index].leader == index {
-                let text = format!("Mean speed of {}; rotors meshed with it follow", rotor.name);
+                let text = format!(
+                    "Mean speed of {}, positive about +z; rotors meshed with it follow",
+                    rotor.name
+                );
                 self.parameter(
                     name,
                     Unit::RadianPerSecond,
@@ -38,7 +41,10 @@ impl Table<'_> {
         }
         for (index, mesh) in train.meshes.iter().enumerate() {
             let parameter = Parameter::StiffnessFactor { mesh: index };
-            let text = format!("Factor on the stiffness of mesh {}", mesh.name);
+            let text = format!(
+                "Factor on the stiffness of mesh {}, greater than 0",
+                mesh.name
+            );
             self.parameter(
                 format!("{}.stiffness_factor", mesh.name),
                 Unit::One,
@@ -47,7 +53,7 @@ impl Table<'_> {
             );
             if mesh.backlash.is_some() {
                 let text = format!(
-                    "Backlash of mesh {}: way of the back flank along its normal",
+                    "Backlash of mesh {}: distance that the back flank travels along its line of action before it touches",
                     mesh.name
                 );
                 let parameter = Parameter::Backlash { mesh: index };
@@ -107,7 +113,8 @@ impl Table<'_> {
             "simulation.tolerance".to_string(),
             Unit::One,
             Parameter::Tolerance,
-            "Bound on the RMS error of every mesh force relative to its RMS".to_string(),
+            "Bound on the RMS error of every mesh force over a run, relative to its RMS"
+                .to_string(),
         );
     }
 
@@ -121,7 +128,7 @@ impl Table<'_> {
             ),
         ];
         for (kind, parameter) in ratios {
-            let text = format!("Modal damping ratio of the elastic {kind} modes of {shaft}");
+            let text = format!("Damping ratio of every elastic {kind} mode of {shaft}");
             self.parameter(
                 format!("{shaft}.{kind}_damping_ratio"),
                 Unit::One,
@@ -140,7 +147,7 @@ impl Table<'_> {
                     entry,
                 };
                 let name = format!("{shaft}.{}.stiffness.{letters}", data.name);
-                let text = format!("Stiffness {letters} of {place}");
+                let text = format!("Stiffness of {place}: {}", per(letters, "displacement"));
                 self.parameter(name, Unit::NewtonPerMeter, parameter, text);
             }
             for (letters, entry) in PlanarEntry::NAMED {
@@ -150,13 +157,16 @@ impl Table<'_> {
                     entry,
                 };
                 let name = format!("{shaft}.{}.damping.{letters}", data.name);
-                let text = format!("Damping {letters} of {place}");
+                let text = format!("Damping of {place}: {}", per(letters, "velocity"));
                 self.parameter(name, Unit::NewtonSecondPerMeter, parameter, text);
             }
         }
         let radial = rotor.bearings.iter().enumerate();
         for (bearing, data) in radial.filter(|(_, data)| data.nonlinear.is_some()) {
-            let text = format!("Radial clearance of bearing {} of {shaft}", data.name);
+            let text = format!(
+                "Radial clearance of bearing {} of {shaft}: no radial force below it",
+                data.name
+            );
             let parameter = Parameter::Clearance {
                 rotor: index,
                 bearing,
@@ -184,8 +194,14 @@ impl Table<'_> {
                 rotor: index,
                 unbalance,
             };
-            let text = format!("Direction of {place} relative to the rotation angle");
+            let text = format!("Direction of {place}, an angle that turns with the shaft");
             self.parameter(format!("{prefix}.phase"), Unit::Radian, parameter, text);
         }
     }
+}
+
+/// What a coefficient is: the first letter is the direction of the force, the second that of the motion.
+fn per(letters: &str, motion: &str) -> String {
+    let (force, direction) = letters.split_at(1);
+    format!("force in {force} per {motion} in {direction}")
 }

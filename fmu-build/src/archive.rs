@@ -65,21 +65,28 @@ impl Archive {
 
     /// The bytes of the `.fmu` file.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ArchiveError> {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated)
-            .last_modified_time(DateTime::default())
-            .unix_permissions(0o644);
-        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         // The description comes first, as readers that stream expect; the rest is sorted.
-        let description = (DESCRIPTION, self.model_description.as_bytes());
+        let description = (DESCRIPTION.to_string(), self.model_description.as_bytes());
         let files = self.files.iter();
-        let files = files.map(|(path, bytes)| (path.as_str(), bytes.as_slice()));
-        for (path, bytes) in std::iter::once(description).chain(files) {
-            zip.start_file(path, options)?;
-            zip.write_all(bytes).map_err(ZipError::Io)?;
-        }
-        Ok(zip.finish()?.into_inner())
+        let files = files.map(|(path, bytes)| (path.clone(), bytes.as_slice()));
+        zipped(std::iter::once(description).chain(files))
     }
+}
+
+/// A zip file of these entries in their order.
+pub(crate) fn zipped<'f>(
+    entries: impl Iterator<Item = (String, &'f [u8])>,
+) -> Result<Vec<u8>, ArchiveError> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::default())
+        .unix_permissions(0o644);
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for (path, bytes) in entries {
+        zip.start_file(path, options)?;
+        zip.write_all(bytes).map_err(ZipError::Io)?;
+    }
+    Ok(zip.finish()?.into_inner())
 }
 
 impl From<ZipError> for ArchiveError {

@@ -6,6 +6,7 @@
 //!   binary     that library with something written into it: one file again, signed where macOS asks for it
 //!   fmu        the parts of an FMU                      archive   its files by their paths, and the zip file
 //!   merge      FMUs packed on different machines -> one
+//!   ssp        several FMUs and their connections in one file
 //!   licenses   the crates that are linked into the library, and their licences
 //! ```
 
@@ -18,6 +19,7 @@ mod macho;
 mod merge;
 mod metadata;
 mod platform;
+mod ssp;
 
 pub use archive::{Archive, ArchiveError};
 pub use binary::{Binary, BinaryError};
@@ -26,3 +28,4 @@ pub use library::{BuildError, Builder, Library, OLDEST_GLIBC};
 pub use licenses::linked_crates;
 pub use merge::{MergeError, merge};
 pub use platform::Platform;
+pub use ssp::Ssp;

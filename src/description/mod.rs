@@ -4,9 +4,11 @@
 pub mod html;
 mod nominal;
 mod page;
+mod ssd;
 mod xml;
 
 pub use page::documentation_page;
+pub use ssd::{Component, Connection, system_structure};
 pub use xml::model_description;
 
 use std::io;

@@ -4,6 +4,7 @@
 //! documentation page are all made from this table; names are made nowhere else. Modal indices count from
 //! one here and from zero everywhere else.
 
+mod coupling;
 mod dependencies;
 mod fingerprint;
 mod parameter;
@@ -15,6 +16,7 @@ use crate::config::Config;
 use crate::model::{Change, Inputs, ModalModel, Motion};
 use crate::train::{GearAddress, GearTrain};
 
+pub use coupling::{Contact, Link, contacts_by_name, links};
 pub use parameter::{Parameter, PlanarEntry, VibrationEntry};
 pub use range::Range;
 pub use unit::{BaseUnit, DisplayUnit, Unit};

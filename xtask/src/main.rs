@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a command line talks
 
 mod bench;
+mod couple;
 mod demo;
 mod fuzz;
 mod golden;
@@ -35,6 +36,9 @@ cargo xtask <command>
                                   what a model file describes: frequencies, critical speeds, whether the
                                   modes kept are enough, communication step; --html: one page with pictures
                                   (default folder: target/inspect)
+  couple TRAIN.toml HOUSING.toml [--out DIR] [--connect ROTOR.BEARING=POINT]...
+                                  a gear train and a housing as a pair of FMUs with an .ssp file, as one FMU for
+                                  comparison, and a script that runs them (default folder: target/couple/NAME)
   demo                            pack examples/three_stage.toml, run the paper's four cases through FMPy, write
                                   Table I, figures 3 to 16 of the paper and CSV files to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
         ["new", rest @ ..] => new::command(rest),
         ["merge", rest @ ..] => merge::command(rest),
         ["inspect", rest @ ..] => inspect::command(rest),
+        ["couple", rest @ ..] => couple::command(rest),
         ["demo"] => demo::command(),
         ["test"] => test::command(),
         ["platforms"] => platforms::command(),

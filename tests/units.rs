@@ -29,6 +29,9 @@ fn value_of(key: &str, text: &str) -> Result<f64, String> {
             config.rotors[0].segments[0].length
         }),
         "mass" => ("[[rotor.disk]]\n", |config| config.rotors[0].disks[0].mass),
+        "inertia" => ("[[rotor.disk]]\npolar_", |config| {
+            config.rotors[0].disks[0].polar_inertia
+        }),
         "value" => ("[[rotor.torque]]\n", |config| {
             config.rotors[0].torques[0].value
         }),
@@ -83,6 +86,9 @@ fn exact_factors_give_the_number_nearest_to_the_exact_one() {
         ("frequency", "72000/min", 1200.0),
         ("lateral_damping_ratio", "5 %", 0.05),
         ("lateral_damping_ratio", "0.05", 0.05),
+        ("inertia", "700 kg mm^2", 7e-4),
+        ("inertia", "700 kg mm2", 7e-4),
+        ("inertia", "700 kg·mm²", 7e-4),
     ] {
         assert_eq!(value_of(key, text), Ok(si), "{text}");
     }
@@ -225,6 +231,32 @@ fn a_hertzian_coefficient_follows_its_exponent() {
     // 1000^(10/9) = 10^(10/3); 1e-15: the root is taken by fend in floating point.
     assert!((coefficient / (5.0 * libm::pow(10.0, 10.0 / 3.0)) - 1.0).abs() < 1e-15);
     assert!(law("1.5", "\"1e9 N/m^1.4\"").1.is_nan());
+}
+
+#[test]
+fn every_wrong_number_of_a_file_gives_one_message_at_its_line() {
+    let text = two_shaft();
+    let lines: Vec<&str> = text.lines().collect();
+    let mut tried = 0;
+    for (index, line) in lines.iter().enumerate() {
+        // A number with its unit, or a whole number.
+        let Some((key, value)) = line.split_once(" = ") else {
+            continue;
+        };
+        let value = value.split(" #").next().unwrap().trim_end();
+        let digit = |text: &str| text.starts_with(|letter: char| "-.0123456789".contains(letter));
+        if line.starts_with('#') || !digit(value.trim_start_matches('"')) {
+            continue;
+        }
+        let mut changed = lines.clone();
+        let wrong = format!("{key} = \"1 K\"");
+        changed[index] = &wrong;
+        let problems = load(&changed.join("\n")).map(|_| ()).unwrap_err();
+        assert_eq!(problems.len(), 1, "{line}: {problems:#?}");
+        assert_eq!(problems[0].spot.unwrap().line, index + 1, "{line}");
+        tried += 1;
+    }
+    assert!(tried > 50, "{tried}");
 }
 
 #[test]

@@ -65,11 +65,17 @@ pub(super) fn resolve_mesh(
     if matches!(mesh.damping, MeshDamping::Ratio(ratio) if ratio > 0.0) {
         rules.ensure(
             "damping_ratio",
-            sizes.iter().all(|&(_, inertia)| inertia > 0.0),
+            sizes
+                .iter()
+                .all(|&(_, inertia)| inertia > 0.0 || inertia.is_nan()),
             || "needs gears with a polar_inertia greater than 0; give damping instead".to_string(),
         );
     }
-    if rules.problems.len() > before {
+    // A number that could not be read (0, NaN) has its problem already.
+    let unread = pair
+        .iter()
+        .any(|gear| gear.teeth == 0 || gear.base_radius.is_nan());
+    if unread || rules.problems.len() > before {
         return None;
     }
     let meshed = [0, 1].map(|side| {

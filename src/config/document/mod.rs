@@ -157,7 +157,7 @@ impl<'d, 't> Table<'d, 't> {
     pub(super) fn table(&self, key: &'static str) -> Option<Table<'d, 't>> {
         match self.value(key)? {
             DeValue::Table(entries) => Some(self.inner(entries, self.place.table(key))),
-            other => self.wrong_type(key, "must be a table", other, None),
+            other => self.wrong_type(key, "must be a table: { key = value, ... }", other, None),
         }
     }
 

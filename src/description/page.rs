@@ -104,7 +104,7 @@ fn usage_of_housing(config: &Config) -> [String; 4] {
             .to_string(),
         format!(
             "Every mode is propagated exactly over a step of any length, for forces that are held over it or, with \
-             fmi2SetRealInputDerivatives, change linearly ({} s is the file's step).",
+             fmi2SetRealInputDerivatives, change linearly ({:?} s is the file's step).",
             config.simulation.step_size
         ),
         "Initial state: the static deflection under the forces set by the end of initialization (start = equilibrium), or \
@@ -127,8 +127,8 @@ fn usage_of_train(config: &Config) -> [String; 4] {
             .to_string(),
         format!(
             "Any communication step works; inputs are held over a step, or change linearly with fmi2SetRealInputDerivatives, so that the \
-             step decides how well a changing input is seen ({} s is the file's). The slave takes its own steps inside, such that the \
-             RMS error of every mesh force stays within simulation.tolerance = {} of its RMS.",
+             step decides how well a changing input is seen ({:?} s is the file's). The slave takes its own steps inside, such that the \
+             RMS error of every mesh force stays within simulation.tolerance = {:?} of its RMS.",
             simulation.step_size, simulation.tolerance
         ),
         "Initial state: the static solution with the mean mesh stiffness under the torques and gearbox displacements set by the end of \

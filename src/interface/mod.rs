@@ -223,12 +223,7 @@ impl Quantity {
                 direction.of(gear.rotor, &rotors[gear.rotor].gears[gear.gear], motion)
             }
             Quantity::GearTorque { gear } => motion.mesh_torque(gear),
-            Quantity::BearingForce {
-                rotor,
-                bearing,
-                input,
-                axis,
-            } => motion.bearing_force(rotor, &rotors[rotor].bearings[bearing], input)[axis],
+            Quantity::BearingForce { axis, .. } => self.bearing_force(motion)[axis],
             Quantity::BearingMotion {
                 rotor,
                 bearing,
@@ -245,6 +240,19 @@ impl Quantity {
             Quantity::PointVelocity { point, axis } => motion.point_velocity(point)[axis],
             Quantity::PointAcceleration { point, axis } => motion.point_acceleration(point)[axis],
             Quantity::Modal { coordinate } => motion.state.position[coordinate],
+        }
+    }
+
+    /// Both components of the force of a bearing [N]; NaN for everything else.
+    pub fn bearing_force(self, motion: &Motion<'_>) -> [f64; 2] {
+        match self {
+            Quantity::BearingForce {
+                rotor,
+                bearing,
+                input,
+                ..
+            } => motion.bearing_force(rotor, &motion.model.rotors[rotor].bearings[bearing], input),
+            _ => [f64::NAN; 2],
         }
     }
 }

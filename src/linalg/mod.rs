@@ -108,6 +108,7 @@ pub fn largest(vector: &DVector<f64>) -> f64 {
 }
 
 /// y += scale A x, without allocation. A is `y.len()` x `x.len()`, column by column.
+#[inline(always)]
 pub fn multiply_add(scale: f64, matrix: &[f64], x: &[f64], y: &mut [f64]) {
     let n = y.len();
     debug_assert_eq!(matrix.len(), n * x.len());
@@ -132,6 +133,7 @@ pub fn multiply_add(scale: f64, matrix: &[f64], x: &[f64], y: &mut [f64]) {
 }
 
 /// y += scale x.
+#[inline(always)]
 pub fn add_scaled(scale: f64, x: &[f64], y: &mut [f64]) {
     for (target, &value) in y.iter_mut().zip(x) {
         *target += scale * value;

@@ -173,8 +173,25 @@ impl Slave {
         for &reference in references {
             self.design.variable(reference)?;
         }
+        // Both components of a bearing's force follow from the same motion, and masters read them one after the other.
+        let mut latest: Option<(usize, [f64; 2])> = None;
         for (&reference, value) in references.iter().zip(values) {
-            *value = self.read(reference)?;
+            let quantity = self.design.variable(reference)?.quantity;
+            *value = match (quantity, latest) {
+                (Quantity::BearingForce { input, axis, .. }, Some((known, force)))
+                    if input == known =>
+                {
+                    force[axis]
+                }
+                (Quantity::BearingForce { input, axis, .. }, _)
+                    if self.life_cycle == LifeCycle::Stepping =>
+                {
+                    let force = quantity.bearing_force(&self.started()?.motion());
+                    latest = Some((input, force));
+                    force[axis]
+                }
+                _ => self.read(reference)?,
+            };
         }
         Ok(())
     }

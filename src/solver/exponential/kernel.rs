@@ -13,7 +13,7 @@ use super::lanes::Quad;
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::part::{Part, take_apart};
-use super::passes::{LookAhead, Move};
+use super::passes::{LookAhead, Move, PutTogether, TakeLoads};
 use super::sight::{Sight, both, instant};
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
@@ -100,16 +100,23 @@ impl Kernel {
         } else {
             self.motion.take_apart(&self.parts, state);
         }
-        self.motion.set_loads(&self.parts, task.forcing.loads());
+        self.arch.dispatch(TakeLoads {
+            parts: &self.parts,
+            motion: &mut self.motion,
+            ramps: task.forcing.loads(),
+        });
     }
 
     /// Ends the call: writes the state.
     pub(super) fn hand_back(&mut self, state: &mut State) -> Result<(), StepError> {
         state.decoupled.copy_from_slice(&self.motion.states);
         state.is_decoupled = true;
-        self.motion.put_together(&self.parts, state);
-        let mut values = state.position.iter().chain(&state.velocity);
-        if values.all(|value| value.is_finite()) {
+        let numbers = self.arch.dispatch(PutTogether {
+            parts: &self.parts,
+            motion: &mut self.motion,
+            state,
+        });
+        if numbers {
             Ok(())
         } else {
             Err(StepError::NotFinite { time: state.time })

@@ -51,6 +51,7 @@ impl Motion {
     }
 
     /// The loads from outside.
+    #[inline(always)]
     pub(super) fn set_loads(&mut self, parts: &[Part], ramps: &[Ramp]) {
         if self.loads == ramps {
             return; // nothing has changed since the call before
@@ -88,7 +89,18 @@ impl Motion {
         }
     }
 
+    /// Whether all states are numbers.
+    #[inline(always)]
+    pub(super) fn is_finite(&self) -> bool {
+        let mut zeros = [0.0; 4];
+        for state in &self.states {
+            add_multiple(&mut zeros, 0.0, state);
+        }
+        zeros == [0.0; 4]
+    }
+
     /// Displacements and velocities from decoupled states.
+    #[inline(always)]
     pub(super) fn put_together(&mut self, parts: &[Part], state: &mut State) {
         for part in parts {
             let range = part.coordinates.clone();

@@ -1,20 +1,30 @@
-//! The two loops of a step that run over all states.
+//! The loops that run over all states, two in a step and two around a call.
 //!
 //! ```text
-//!   look ahead   free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
-//!   move         eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
+//!   take loads     load = sum of columns times inputs
+//!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
+//!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
+//!   put together   [q; q'] = V eta
 //! ```
 //!
 //! Each is one operation for `pulp`, compiled once for every width of vectors.
 
 use pulp::{Simd, WithSimd};
 
+use super::super::{Ramp, State};
 use super::coefficients::Coefficients;
 use super::motion::Motion;
 use super::part::Part;
 use super::polynomials::NODES;
 use super::sight::{Sight, accumulate};
 use super::turning::Turning;
+
+/// The loads of a call.
+pub(super) struct TakeLoads<'a> {
+    pub(super) parts: &'a [Part],
+    pub(super) motion: &'a mut Motion,
+    pub(super) ramps: &'a [Ramp],
+}
 
 /// What the couplings see at the points without forces.
 pub(super) struct LookAhead<'a> {
@@ -36,6 +46,32 @@ pub(super) struct Move<'a> {
     pub(super) turning: &'a Turning,
     /// Room for what acts on one part.
     pub(super) acting: &'a mut [[f64; 2]],
+}
+
+/// Displacements and velocities at the end of a call. Gives whether the states are numbers.
+pub(super) struct PutTogether<'a> {
+    pub(super) parts: &'a [Part],
+    pub(super) motion: &'a mut Motion,
+    pub(super) state: &'a mut State,
+}
+
+impl WithSimd for TakeLoads<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.motion.set_loads(self.parts, self.ramps);
+    }
+}
+
+impl WithSimd for PutTogether<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        self.motion.put_together(self.parts, self.state);
+        self.motion.is_finite()
+    }
 }
 
 impl WithSimd for LookAhead<'_> {

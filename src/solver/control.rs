@@ -2,11 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Piece;
+
+/// Pieces of a law are told apart by their number modulo this.
+const KINDS: usize = 8;
+
 /// Memory of the step control; one entry per monitor in each list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Control {
     /// Step that the last error estimates ask for [s]; 0 before the first step.
     pub(super) wanted_step: f64,
+    /// The same when last in each piece of each law: a ramp asks for shorter steps than what lies between ramps. 0 where unknown.
+    by_piece: Vec<[f64; KINDS]>,
     /// Time over which the mean squares run [s].
     pub(super) elapsed: f64,
     /// Time integral of the square of what is monitored.
@@ -17,30 +24,60 @@ pub(super) struct Control {
 
 impl Control {
     /// Nothing remembered.
-    pub(super) fn new(monitors: usize) -> Control {
+    pub(super) fn new(monitors: usize, laws: usize) -> Control {
         Control {
             wanted_step: 0.0,
+            by_piece: vec![[0.0; KINDS]; laws],
             elapsed: 0.0,
             squares: vec![0.0; monitors],
             peaks: vec![[0.0; 2]; monitors],
         }
     }
 
+    /// Step to try in these pieces [s]: the shortest that any of them asks for.
+    pub(super) fn step_in(&self, pieces: &[Piece]) -> f64 {
+        let by_piece = self.by_piece.iter().zip(pieces);
+        let known = by_piece.map(|(wanted, piece)| wanted[piece.index % KINDS]);
+        let known = known.filter(|&wanted| wanted > 0.0);
+        known.reduce(f64::min).unwrap_or(self.wanted_step)
+    }
+
+    /// The last step in these pieces asks for this one [s], or at least for it. What decided takes it over; the others keep
+    /// what is longer.
+    pub(super) fn want(&mut self, step: f64, at_least: bool, pieces: &[Piece]) {
+        let decided = self.step_in(pieces);
+        let step = if at_least { step.max(decided) } else { step };
+        self.wanted_step = step;
+        for (wanted, piece) in self.by_piece.iter_mut().zip(pieces) {
+            let wanted = &mut wanted[piece.index % KINDS];
+            if *wanted <= decided || *wanted < step {
+                *wanted = step;
+            }
+        }
+    }
+
+    /// Becomes the same as another one in what steps ask for.
+    pub(super) fn want_like(&mut self, other: &Control) {
+        self.wanted_step = other.wanted_step;
+        self.by_piece.clone_from(&other.by_piece);
+    }
+
     /// Lengths of the lists.
-    pub(super) fn lengths(&self) -> [usize; 2] {
-        [self.squares.len(), self.peaks.len()]
+    pub(super) fn lengths(&self) -> [usize; 3] {
+        [self.squares.len(), self.peaks.len(), self.by_piece.len()]
     }
 
     /// Whether all numbers are finite and none is negative.
     pub(super) fn is_valid(&self) -> bool {
         let numbers = self.squares.iter().chain(self.peaks.iter().flatten());
+        let numbers = numbers.chain(self.by_piece.iter().flatten());
         let mut numbers = numbers.chain([&self.wanted_step, &self.elapsed]);
         numbers.all(|number| number.is_finite() && *number >= 0.0)
     }
 
     /// Becomes the same as another one of the same system, without allocation.
     pub(super) fn copy_from(&mut self, other: &Control) {
-        self.wanted_step = other.wanted_step;
+        self.want_like(other);
         self.elapsed = other.elapsed;
         self.squares.clone_from(&other.squares);
         self.peaks.clone_from(&other.peaks);

@@ -23,6 +23,8 @@ const LEAST_ADVANCE: f64 = 1e-6;
 const TOO_SHORT_TO_END: f64 = 1e-3;
 /// After so many interruptions of one step a law that is to land counts as landed.
 const MOST_INTERRUPTIONS: u32 = 20;
+/// A step that could be this many times longer says no more than that.
+const MOST_SAID: f64 = 2.0;
 /// A stretch begins with a guess of this part of it.
 const FIRST_STEP: f64 = 1.0 / 16.0;
 
@@ -198,7 +200,7 @@ impl March {
         }
         while state.time < stop {
             let (start, length) = (state.time, grid.length(stop - state.time));
-            let count = equal_steps(length / state.control.wanted_step);
+            let count = equal_steps(length / state.control.step_in(&self.pieces));
             let step = length / count as f64;
             if start + 0.5 * step == start {
                 return Err(StepError::StepTooSmall { time: start, step });
@@ -257,11 +259,14 @@ impl March {
                         self.end_pieces(method, task, state);
                         return Ok(true);
                     }
-                    state.control.wanted_step = span.step * ratio;
+                    let pieces = &self.pieces;
+                    state
+                        .control
+                        .want(span.step * ratio, ratio >= MOST_SAID, pieces);
                     return Ok(ratio < 1.0 || (ratio > 1.4 && !last));
                 }
                 Outcome::Rejected { ratio } => {
-                    state.control.wanted_step = span.step * ratio;
+                    state.control.want(span.step * ratio, false, &self.pieces);
                     return Ok(true);
                 }
                 Outcome::Interrupted { law, time } => {

@@ -132,7 +132,7 @@ impl System {
             is_decoupled: false,
             turning: Turning::default(),
             slow: self.slow.clone(),
-            control: Control::new(self.monitors.len()),
+            control: Control::new(self.monitors.len(), self.laws),
         }
     }
 

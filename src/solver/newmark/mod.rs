@@ -309,7 +309,7 @@ impl Method for Pair {
         self.counts.steps += 1;
         state.time = span.end;
         // After an event nobody sets it anew.
-        self.next_control.wanted_step = state.control.wanted_step;
+        self.next_control.want_like(&state.control);
         core::mem::swap(&mut state.control, &mut self.next_control);
         Ok(Outcome::Accepted {
             ratio: if error > 1.0 { ratio.min(0.99) } else { ratio },

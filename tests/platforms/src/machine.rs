@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use fmu_build::{OLDEST_GLIBC, Platform};
 
@@ -65,8 +65,11 @@ impl Machine {
         command
             .arg(fmu.guid())
             .args([nanoseconds.to_string(), steps.to_string()])
-            .args([fmu.housing_inputs().join(","), fmu.variables().join(",")])
+            .args([fmu.moving_inputs().join(","), fmu.variables().join(",")])
             .arg("results");
+        // The first start of wine sets up its folder, which two at once cannot.
+        let _alone =
+            (self == Machine::Wine).then(|| WINE.lock().unwrap_or_else(PoisonError::into_inner));
         let output = command.output();
         let output = output.unwrap_or_else(|error| panic!("{command:?}: {error}"));
         let said = String::from_utf8_lossy(&output.stderr);
@@ -125,6 +128,8 @@ impl Machine {
     }
 }
 
+static WINE: Mutex<()> = Mutex::new(());
+
 /// The compiled host.
 fn host(platform: Platform) -> PathBuf {
     static HOSTS: [OnceLock<PathBuf>; 4] = [const { OnceLock::new() }; 4];
@@ -145,7 +150,7 @@ fn compile(platform: Platform) -> PathBuf {
         zig.args(["cc", "-target", &format!("{target}.{OLDEST_GLIBC}")]);
         zig
     };
-    let host = named("GEARTRAIN_PLATFORMS").join(format!("run-{}", platform.folder()));
+    let host = named("GEARTRAIN_PLATFORMS").join(format!("run-{}.exe", platform.folder()));
     let output = compiler
         .args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-O1"])
         .arg("-ffp-contract=off")

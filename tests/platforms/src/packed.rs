@@ -58,10 +58,10 @@ impl Packed {
         attribute(&self.archive.model_description, "guid").expect("a guid")
     }
 
-    /// Value references of inputs of the gearbox.
-    pub fn housing_inputs(&self) -> Vec<String> {
+    /// Value references of inputs that may move by micrometres or forces as small: all but torques.
+    pub fn moving_inputs(&self) -> Vec<String> {
         self.references(|variable| {
-            variable.contains("causality=\"input\"") && variable.contains(".housing.")
+            variable.contains("causality=\"input\"") && !variable.contains(".torque\"")
         })
     }
 

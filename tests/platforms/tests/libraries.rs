@@ -27,7 +27,7 @@ fn libraries(fmu: &Packed) -> Vec<(String, &[u8])> {
 fn functions_of_fmi() -> Vec<String> {
     let header = include_str!("../../importers/c/fmi2.h");
     let rows = header.lines().filter_map(|line| {
-        let (_, row) = line.split_once(" X(")?;
+        let row = line.strip_prefix("    X(")?;
         row.split(", ").nth(1)
     });
     let mut names: Vec<String> = rows.map(|name| format!("fmi2{name}")).collect();

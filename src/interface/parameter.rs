@@ -45,6 +45,8 @@ pub enum Parameter {
     HousingDampingRatio { mode: usize },
     /// `simulation.tolerance`
     Tolerance,
+    /// `simulation.input_extrapolation`
+    InputExtrapolation,
 }
 
 /// One entry of a 2 x 2 coefficient matrix.
@@ -113,6 +115,7 @@ impl Parameter {
                 &mut housing_mode(config, mode).damping_ratio
             }
             Parameter::Tolerance => &mut config.simulation.tolerance,
+            Parameter::InputExtrapolation => &mut config.simulation.input_extrapolation,
         }
     }
 }

@@ -55,6 +55,10 @@ impl Parameter {
             | Parameter::HousingDampingRatio { .. }
             | Parameter::Vibration(VibrationEntry::Frequency) => NOT_NEGATIVE,
             Parameter::UnbalancePhase { .. } | Parameter::Vibration(_) => ANY,
+            Parameter::InputExtrapolation => Range {
+                min: Some(0.0),
+                max: Some(1.0),
+            },
             Parameter::Tolerance => Range {
                 min: Some(1e-12),
                 max: Some(0.1),

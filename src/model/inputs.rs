@@ -55,6 +55,13 @@ pub(super) struct SupportVibration {
 }
 
 impl Inputs {
+    /// Takes over the values of others of the same shape; allocates nothing.
+    pub fn overwrite(&mut self, others: &Inputs) {
+        self.torques.clone_from(&others.torques);
+        self.bases.clone_from(&others.bases);
+        self.forces.clone_from(&others.forces);
+    }
+
     /// Adds what changes in `elapsed` seconds.
     pub fn add_change(&mut self, rate: &Inputs, elapsed: f64) {
         for (torque, rate) in self.torques.iter_mut().zip(&rate.torques) {

@@ -10,6 +10,7 @@
 //! module that knows FMI's modes; knows no pointers.
 
 mod calls;
+mod continuation;
 mod derivatives;
 mod design;
 mod error;
@@ -22,6 +23,7 @@ use crate::interface::{Causality, Parameter, Quantity};
 use crate::model::Inputs;
 use crate::simulation::Simulation;
 
+use continuation::Continuation;
 use design::Design;
 
 pub use calls::{Call, LifeCycle};
@@ -37,6 +39,8 @@ pub struct Slave {
     inputs: Inputs,
     /// How the inputs change in the next step, when the master says so.
     rate: Option<Inputs>,
+    /// How they went on before, where it says nothing.
+    continuation: Continuation,
     life_cycle: LifeCycle,
     experiment: Option<Experiment>,
     /// Whether the master set `simulation.tolerance` itself.
@@ -81,6 +85,7 @@ impl Slave {
         let inputs = design.inputs(design.torques.clone());
         Ok(Slave {
             config: design.config.clone(),
+            continuation: Continuation::new(&inputs),
             inputs,
             rate: None,
             life_cycle: LifeCycle::Instantiated,
@@ -161,6 +166,7 @@ impl Slave {
         self.config.clone_from(&self.design.config);
         self.inputs = self.design.inputs(self.design.torques.clone());
         self.rate = None;
+        self.continuation = Continuation::new(&self.inputs);
         self.life_cycle = LifeCycle::Instantiated;
         self.experiment = None;
         self.tolerance_set = false;
@@ -250,13 +256,24 @@ impl Slave {
                 "the step from {time:?} s by {step:?} s ends after the stop time {stop:?} s (start {start:?} s)"
             )));
         }
-        if let Err(error) = simulation.advance_along(end, self.rate.as_ref()) {
+        let length = end - now;
+        let continued = self.config.simulation.input_extrapolation == 1.0;
+        let mut rate = self.rate.as_ref();
+        if continued && rate.is_none() {
+            // Outputs were read with the inputs continued; the next step begins with those that were set.
+            simulation.inputs_mut().overwrite(&self.inputs);
+            rate = Some(self.continuation.rate(&self.inputs, length));
+        }
+        if let Err(error) = simulation.advance_along(end, rate) {
             self.life_cycle = LifeCycle::Failed;
             let step = format!("the step from {time:?} s by {step:?} s");
             return Err(Error::new(format!("{step} failed: {error}")));
         }
+        if continued {
+            self.continuation.note(&self.inputs, length);
+        }
         if self.rate.take().is_some() {
-            self.inputs.clone_from(simulation.inputs());
+            self.inputs.overwrite(simulation.inputs());
         }
         Ok(())
     }

@@ -10,6 +10,7 @@
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::continuation::Continuation;
 use super::{Error, Experiment, LifeCycle, Slave, settings};
 use crate::config::Config;
 use crate::model::Inputs;
@@ -25,6 +26,7 @@ pub struct SavedState {
     pub(super) tolerance_set: bool,
     pub(super) inputs: Inputs,
     pub(super) rate: Option<Inputs>,
+    pub(super) continuation: Continuation,
     pub(super) experiment: Option<Experiment>,
     pub(super) life_cycle: LifeCycle,
     /// The solution, once it runs.
@@ -33,7 +35,7 @@ pub struct SavedState {
 
 const MAGIC: &[u8; 16] = b"geartrain state\0";
 /// Changes whenever the content of a saved state does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Magic, version, length, checksum.
 const HEADER: usize = 16 + 4 + 8 + 32;
 
@@ -95,6 +97,7 @@ impl Slave {
             tolerance_set: self.tolerance_set,
             inputs: self.inputs.clone(),
             rate: self.rate.clone(),
+            continuation: self.continuation.clone(),
             experiment: self.experiment,
             life_cycle: self.life_cycle,
             solution: self
@@ -119,6 +122,7 @@ impl Slave {
         self.config = config;
         self.inputs.clone_from(&saved.inputs);
         self.rate.clone_from(&saved.rate);
+        self.continuation.clone_from(&saved.continuation);
         self.life_cycle = saved.life_cycle;
         self.experiment = saved.experiment;
         self.tolerance_set = saved.tolerance_set;
@@ -131,6 +135,7 @@ impl Slave {
         let fits = saved.guid == self.design.guid
             && saved.parameters.len() == self.design.parameters().count()
             && saved.parameters.iter().all(|value| value.is_finite())
+            && saved.continuation.fits(&self.inputs)
             && inputs.all(|inputs| inputs.is_like(&self.inputs) && inputs.is_finite());
         if fits { Ok(()) } else { Err(misfit()) }
     }
@@ -173,15 +178,17 @@ mod tests {
     use crate::model::BaseMotion;
 
     fn sample() -> SavedState {
+        let inputs = Inputs {
+            torques: vec![3.0],
+            bases: vec![BaseMotion::default(); 2],
+            forces: vec![[0.5, -1.0]],
+        };
         SavedState {
             guid: "{a}".to_string(),
             parameters: vec![1.0, -2.5],
             tolerance_set: true,
-            inputs: Inputs {
-                torques: vec![3.0],
-                bases: vec![BaseMotion::default(); 2],
-                forces: vec![[0.5, -1.0]],
-            },
+            continuation: Continuation::new(&inputs),
+            inputs,
             rate: None,
             experiment: None,
             life_cycle: LifeCycle::Instantiated,

@@ -111,6 +111,12 @@ fn check_simulation(place: &Place, config: &Config, problems: &mut Vec<Problem>)
             "must be at least 1e-12, which is near rounding, and at most 0.1, found {tolerance}"
         )
     });
+    let extrapolation = simulation.input_extrapolation;
+    rules.ensure(
+        "input_extrapolation",
+        extrapolation == 0.0 || extrapolation == 1.0,
+        || format!("must be 1 (on) or 0 (off), found {extrapolation}"),
+    );
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");
 }

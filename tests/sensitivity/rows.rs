@@ -144,6 +144,7 @@ pub const ROWS: &[Row] = &[
     row(["simulation", "solver"], PLAIN, &[("\"exponential\"", "\"newmark\"")], &[], &["one.angle", "one.speed", "frequency["]),
     row(["simulation", "start"], PLAIN, &[("\"equilibrium\"", "\"rest\"")], &["mesh.force", "one.left.force_x"], &["frequency["]),
     row(["simulation", "tolerance"], PLAIN, &[("1.1e-5", "1e-3")], &["simulation.tolerance"], &["frequency["]),
+    row(["simulation", "input_extrapolation"], PLAIN, &[("stop_time = 0.5", "stop_time = 0.5\ninput_extrapolation = true")], &["input_extrapolation"], &["force", "frequency["]),
     row(["simulation", "stop_time"], PLAIN, &[("stop_time = 0.5", "stop_time = 0.6")], &[], &[""]),
     row(["simulation", "step_size"], PLAIN, &[("1.2e-5", "1.3e-5")], &[], &[""]),
     row(["basis", "lateral_modes"], PLAIN, &[("lateral_modes = 4", "lateral_modes = 5")], &["one.lateral_frequency[5]", "mesh.force"], &["torsional_frequency"]),

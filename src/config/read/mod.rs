@@ -116,6 +116,7 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
         solver: SolverChoice::Exponential,
         start: Start::Equilibrium,
         tolerance: 1e-4,
+        input_extrapolation: 0.0,
         stop_time: 1.0,
         step_size: 1e-5,
     };
@@ -140,6 +141,7 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
             .choice("start", Some(defaults.start), &starts)
             .unwrap_or(defaults.start),
         tolerance: table.number_or("tolerance", &NUMBER, defaults.tolerance),
+        input_extrapolation: f64::from(u8::from(table.boolean_or("input_extrapolation", false))),
         stop_time: table.number_or("stop_time", &TIME, defaults.stop_time),
         step_size: table.number_or("step_size", &TIME, defaults.step_size),
     };

@@ -68,6 +68,13 @@ impl Table<'_> {
         if !train.rotors.is_empty() {
             self.run_parameters();
         }
+        self.parameter(
+            "simulation.input_extrapolation".to_string(),
+            Unit::One,
+            Parameter::InputExtrapolation,
+            "1: inputs go on through a step as they went before, where the master gives no derivatives; 0: they are held"
+                .to_string(),
+        );
     }
 
     /// Parameters of the whole train.

@@ -1,6 +1,7 @@
 """Where the packed FMUs are, and how the tests run them through FMPy."""
 
 import os
+import subprocess
 from pathlib import Path
 
 import fmpy
@@ -21,6 +22,22 @@ def fmus() -> Path:
 @pytest.fixture(scope="session")
 def three_stage(fmus) -> str:
     return str(fmus / "three_stage.fmu")
+
+
+def couple(train, housing, folder, links=None) -> Path:
+    """What `cargo xtask couple` writes of two model files; `links` names points for bearings."""
+    command = [os.environ.get("CARGO", "cargo"), "run", "--quiet", "--package", "xtask", "--", "couple", train, housing]
+    for bearing, point in (links or {}).items():
+        command += ["--connect", f"{bearing}={point}"]
+    done = subprocess.run([*command, "--out", str(folder)], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return Path(folder)
+
+
+@pytest.fixture(scope="session")
+def three_stage_pair(tmp_path_factory) -> Path:
+    """The folder of the three-stage train and its housing, ready to be coupled."""
+    return couple("examples/three_stage.toml", "examples/gearbox_housing.toml", tmp_path_factory.mktemp("pair"))
 
 
 def simulate(fmu, **options):

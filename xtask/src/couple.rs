@@ -14,7 +14,7 @@ use crate::pack::pack;
 use crate::{shell, workspace};
 
 /// The script that runs the pair; it is copied beside it.
-const SCRIPT: &str = "examples/couple_gearbox.py";
+const SCRIPT: &str = "examples/couple.py";
 
 /// What the arguments say.
 struct Options {

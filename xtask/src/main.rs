@@ -4,6 +4,7 @@
 
 mod bench;
 mod couple;
+mod coupling;
 mod demo;
 mod fuzz;
 mod golden;
@@ -49,6 +50,8 @@ cargo xtask <command>
                                   step through the C interface, starting an instance, growth with the number of
                                   rotors, error over tolerance; --record puts all tables into docs/performance.md
   validation                      measure the paper's claims anew, write their tables into docs/validation.md
+  coupling                        measure ways to couple the example with its housing anew (4 minutes), write
+                                  their errors and stability limits into docs/coupling.md
   golden                          regenerate modelDescription/modelDescription.xml; review its diff
 ";
 
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         ["platforms"] => platforms::command(),
         ["fuzz", rest @ ..] => fuzz::command(rest),
         ["bench", parts @ ..] => bench::command(parts),
+        ["coupling"] => coupling::command(),
         ["golden"] => golden::command(),
         ["validation"] => validation::command(),
         [] | ["help" | "--help" | "-h"] => {

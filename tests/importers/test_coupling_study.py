@@ -10,7 +10,7 @@ sys.path.insert(0, str(ROOT / "validation/coupling"))
 from candidates import Estimate, Estimated, Impedance, Motion  # noqa: E402
 from energy import energies  # noqa: E402
 from measure import GRID, coupled, reference, stable  # noqa: E402
-from schemes import Derivatives, Held, HeldWithoutVelocity, Rollback  # noqa: E402
+from schemes import Derivatives, Held, HeldAndContinued, HeldWithoutVelocity, Rollback  # noqa: E402
 from study import CASE_4  # noqa: E402
 
 STOP = 0.01  # 18 mesh periods [s]; the study runs twice as long
@@ -44,6 +44,11 @@ def test_held_inputs_are_worth_a_tenth_and_velocity_is_needed(three_stage_pair, 
     held = errors(three_stage_pair, exact, Held(), 1e-5)[0]
     assert 10 * errors(three_stage_pair, exact, Derivatives(), 1e-5)[0] < held < 0.05
     assert errors(three_stage_pair, exact, HeldWithoutVelocity(), 2e-6)[0] > 0.1, "no step is small enough without velocity"
+
+
+def test_slaves_that_continue_their_inputs_are_ten_times_as_exact(three_stage_pair, exact):
+    held, continued = (errors(three_stage_pair, exact, scheme, 2e-5)[0] for scheme in (Held(), HeldAndContinued()))
+    assert continued < held / 10 and continued < 0.01, (held, continued)
 
 
 def test_slaves_that_estimate_make_held_inputs_good(three_stage_pair, exact):

@@ -41,7 +41,7 @@ def reference(folder: Path, parameters: dict[str, float], stop: float, tolerance
 
 def coupled(folder: Path, parameters: dict[str, float], scheme, h: float, stop: float, limit: float = np.inf) -> Course:
     """The pair under a scheme, read after passing on motion and forces; ends early where a bearing force exceeds `limit`."""
-    pair = Pair(folder, parameters)
+    pair = Pair(folder, parameters | getattr(scheme, "parameters", {}))
     rows = []
     try:
         for index in range(round(stop / h) + 1):

@@ -25,6 +25,12 @@ class Held:
         pair.step(h)
 
 
+class HeldAndContinued(Held):
+    """the same with slaves that continue their inputs"""
+
+    parameters = {"simulation.input_extrapolation": 1.0}
+
+
 class HeldWithoutVelocity:
     """the same with velocity inputs left at 0"""
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from candidates import Averaged, Estimate, Estimated, Impedance, Motion, Predicted, TransmissionLine
+from candidates import Averaged, Estimate, Estimated, Impedance, MeanOfParabola, Motion, Predicted, TransmissionLine
 from energy import energies
 from measure import GRID, Course, coupled, largest_stable_step, reference, step_for
-from schemes import (Derivatives, Held, HeldOldOutputs, HeldWithoutVelocity, Rollback, Sequential, SequentialExtrapolated)
+from schemes import (Derivatives, Held, HeldAndContinued, HeldOldOutputs, HeldWithoutVelocity, Rollback, Sequential,
+                     SequentialExtrapolated)
 
 matplotlib.use("Agg")  # draws into files, needs no screen
 import matplotlib.pyplot as plt  # noqa: E402
@@ -29,6 +30,7 @@ SCHEMES = {
     "parallel, velocity inputs left at 0": HeldWithoutVelocity,
     "parallel, held, outputs as of the end of the last step": HeldOldOutputs,
     "parallel, held, outputs re-evaluated": Held,
+    "parallel, held, `simulation.input_extrapolation` = 1": HeldAndContinued,
     "sequential, held forces": Sequential,
     "parallel, input derivatives": Derivatives,
     "sequential, extrapolated forces": SequentialExtrapolated,
@@ -47,6 +49,7 @@ CANDIDATES = {
     "both, displacement with the velocity input": lambda: Estimated(Motion(False), Estimate(1)),
     "the same, displacement bent by the estimated acceleration": lambda: Estimated(Motion(True), Estimate(1), bent=True),
     "both: parabola through three points": lambda: Estimated(Estimate(2), Estimate(2), bent=True),
+    "both: straight line with the mean of that parabola": lambda: Estimated(MeanOfParabola(), MeanOfParabola()),
     "both: motion bent, parabola for the forces": lambda: Estimated(Motion(True), Estimate(2), bent=True),
     "housing knows the bearings, rest of the force held; train held": lambda: Impedance(0),
     "housing knows the bearings, rest by difference; train bent": lambda: Impedance(1, Motion(True)),
@@ -131,7 +134,7 @@ def measure_energy(folder: Path) -> list[str]:
 def draw(found: dict[str, np.ndarray], picture: Path) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(13, 5), sharey=True, layout="constrained")
     for index, (ax, kind) in enumerate(zip(axes, KINDS)):
-        for mark, (name, table) in zip("vo^sD*xP", found.items()):
+        for mark, (name, table) in zip("vo^psD*xP", found.items()):
             ax.loglog(1e6 * np.array(STEPS), 100 * np.where(table[:, index] < 2, table[:, index], np.nan), marker=mark,
                       markersize=5, linewidth=1.2, label=name)
         ax.axhline(1.0, color="black", linewidth=0.8, linestyle=":")

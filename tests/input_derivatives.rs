@@ -77,7 +77,7 @@ const VIBRATION: (f64, f64) = (1200.0, 2e-5);
 
 fn base_at(time: f64) -> BaseMotion {
     let (frequency, amplitude) = VIBRATION;
-    let w = core::f64::consts::TAU * frequency;
+    let w = TAU * frequency;
     let (sine, cosine) = (w * time).sin_cos();
     BaseMotion {
         displacement: [amplitude * sine; 2],

@@ -1,24 +1,28 @@
 //! The inputs of a master that holds them over every step, continued through the step from what they were before.
 //!
 //! ```text
-//!   velocities, torques, forces    w(t) = w + w' t,   w' = (w - w at the last communication point) / (length of the last step)
-//!   displacements                  u(t) = u + (v + v' h / 2) t          v: the velocity that belongs to u, h: the step
+//!   velocities, torques, forces    w' = slope of the line from w with the mean, over the next step, of the parabola through w now and
+//!                                  at the last two communication points
+//!   displacements                  u' = v + w' h / 2          v: the velocity that belongs to u, w': that of v, h: the next step
 //! ```
 //!
-//! Held inputs lag half a step behind, which takes energy out of a loop or puts it in; continued ones do not. The values that the
-//! master has set stay what they are.
+//! Held inputs lag half a step behind, which takes energy out of a loop or puts it in; continued ones do not: `docs/coupling.md`.
+//! The values that the master has set stay what they are.
 
 use serde::{Deserialize, Serialize};
 
 use crate::model::{BaseMotion, Inputs};
 
-/// What is known from the last step.
+/// A step may be so many times longer than the one before: beyond, what happened there says nothing.
+const LONGER: f64 = 4.0;
+
+/// What is known from the last steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Continuation {
-    /// The inputs at its start.
-    before: Inputs,
-    /// Its length [s]; 0 before the first one.
-    step: f64,
+    /// The inputs at the start of the last step, and of the one before.
+    before: [Inputs; 2],
+    /// The lengths of these steps [s]; 0 where there was none.
+    steps: [f64; 2],
     /// How the inputs are continued: room for the answer.
     rate: Inputs,
 }
@@ -27,39 +31,36 @@ impl Continuation {
     /// Before the first step; `inputs` are any of the right shape.
     pub(super) fn new(inputs: &Inputs) -> Continuation {
         Continuation {
-            before: inputs.clone(),
-            step: 0.0,
+            before: [inputs.clone(), inputs.clone()],
+            steps: [0.0; 2],
             rate: inputs.clone(),
         }
     }
 
     /// The inputs at the start of a step of this length.
     pub(super) fn note(&mut self, inputs: &Inputs, step: f64) {
-        self.before.overwrite(inputs);
-        self.step = step;
+        self.before.swap(0, 1);
+        self.before[0].overwrite(inputs);
+        self.steps = [step, self.steps[0]];
     }
 
     /// How the inputs change per second in the next step [s].
     pub(super) fn rate(&mut self, inputs: &Inputs, next: f64) -> &Inputs {
-        let per_second = if self.step > 0.0 {
-            1.0 / self.step
-        } else {
-            0.0
-        };
-        let rate = |now: f64, before: f64| (now - before) * per_second;
-        let (before, change) = (&self.before, &mut self.rate);
-        let torques = inputs.torques.iter().zip(&before.torques);
-        for ((now, before), change) in torques.zip(&mut change.torques) {
-            *change = rate(*now, *before);
+        let line = Line::over(self.steps, next);
+        let ([one, two], change) = (&self.before, &mut self.rate);
+        let torques = inputs.torques.iter().zip(&one.torques).zip(&two.torques);
+        for (((now, one), two), change) in torques.zip(&mut change.torques) {
+            *change = line.of(*now, *one, *two);
         }
-        let forces = inputs.forces.iter().flatten();
-        let forces = forces.zip(before.forces.iter().flatten());
-        for ((now, before), change) in forces.zip(change.forces.iter_mut().flatten()) {
-            *change = rate(*now, *before);
+        let past = one.forces.iter().flatten().zip(two.forces.iter().flatten());
+        let forces = inputs.forces.iter().flatten().zip(past);
+        for ((now, (one, two)), change) in forces.zip(change.forces.iter_mut().flatten()) {
+            *change = line.of(*now, *one, *two);
         }
-        let bases = inputs.bases.iter().zip(&before.bases);
-        for ((now, before), change) in bases.zip(&mut change.bases) {
-            let velocity = [0, 1].map(|axis| rate(now.velocity[axis], before.velocity[axis]));
+        let bases = inputs.bases.iter().zip(&one.bases).zip(&two.bases);
+        for (((now, one), two), change) in bases.zip(&mut change.bases) {
+            let velocity = [0, 1]
+                .map(|axis| line.of(now.velocity[axis], one.velocity[axis], two.velocity[axis]));
             *change = BaseMotion {
                 displacement: [0, 1].map(|axis| now.velocity[axis] + 0.5 * next * velocity[axis]),
                 velocity,
@@ -70,11 +71,40 @@ impl Continuation {
 
     /// Whether it belongs to inputs of this shape and consists of numbers.
     pub(super) fn fits(&self, inputs: &Inputs) -> bool {
-        let all = [&self.before, &self.rate].into_iter();
-        self.step.is_finite()
-            && all.fold(true, |fits, one| {
-                fits && one.is_like(inputs) && one.is_finite()
-            })
+        let [one, two] = &self.before;
+        let known = |inputs_of: &&Inputs| inputs_of.is_like(inputs) && inputs_of.is_finite();
+        let lengths = self
+            .steps
+            .iter()
+            .all(|step| step.is_finite() && *step >= 0.0);
+        lengths && [one, two, &self.rate].iter().all(known)
+    }
+}
+
+/// A line with the mean of a parabola over the next step, as far as points are known.
+struct Line {
+    /// Per change over the last step and over the one before [1/s].
+    weights: [f64; 2],
+}
+
+impl Line {
+    /// w' = d_1 + (d_1 - d_2) (2 h / 3 + h_1) / (h_1 + h_2),   d_i = change / h_i (divided differences)
+    fn over([last, before]: [f64; 2], next: f64) -> Line {
+        let known = |step: f64, after: f64| step > 0.0 && after <= LONGER * step;
+        let weights = match (known(last, next), known(before, last)) {
+            (false, _) => [0.0; 2],
+            (true, false) => [1.0 / last, 0.0],
+            (true, true) => {
+                let bend = (2.0 / 3.0 * next + last) / (last + before);
+                [(1.0 + bend) / last, -bend / before]
+            }
+        };
+        Line { weights }
+    }
+
+    /// For a value now, at the start of the last step, and of the one before.
+    fn of(&self, now: f64, one: f64, two: f64) -> f64 {
+        self.weights[0] * (now - one) + self.weights[1] * (one - two)
     }
 }
 
@@ -94,16 +124,36 @@ mod tests {
     }
 
     #[test]
-    fn a_parabola_with_its_velocity_is_continued_exactly() {
-        // u = t^2 / 2, v = t at 0.1 s, after a step of 0.1 s: over the next 0.3 s u grows by 0.03 + 0.045.
+    fn the_mean_of_a_parabola_is_kept_whatever_the_steps() {
+        // w = t^2 at 0, 0.1 and 0.3 s; its mean over the next 0.3 s is (0.6^3 - 0.3^3) / (3 0.3) = 0.21. The velocity is w, too.
+        let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
+        continuation.note(&inputs(0.0, 0.0, 0.0), 0.1);
+        continuation.note(&inputs(0.01, 0.0, 0.01), 0.2);
+        let rate = continuation.rate(&inputs(0.09, 0.005, 0.09), 0.3);
+        // Half the step times the slope from 0.09 to the mean.
+        assert!((0.15 * rate.torques[0] - 0.12).abs() < 1e-15);
+        assert!((0.15 * rate.forces[0][0] - 0.24).abs() < 1e-15);
+        assert!((0.15 * rate.bases[0].velocity[0] - 0.12).abs() < 1e-15);
+        // The mean velocity.
+        assert!((rate.bases[0].displacement[0] - 0.21).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_tiny_step_says_nothing_about_a_long_one() {
+        let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
+        continuation.note(&inputs(5.0, 0.0, 0.0), 1e-9);
+        assert_eq!(
+            continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3).torques,
+            [0.0]
+        );
+    }
+
+    #[test]
+    fn two_points_make_a_line() {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(5.0, 0.0, 0.0), 0.1);
-        let now = inputs(6.0, 0.005, 0.1);
-        let rate = continuation.rate(&now, 0.3);
-        let base = rate.bases[0];
-        assert!((0.3 * base.displacement[0] - 0.075).abs() < 1e-15);
-        assert!((base.velocity[0] - 1.0).abs() < 1e-15);
-        assert!((rate.torques[0] - 10.0).abs() < 1e-12 && (rate.forces[0][0] - 20.0).abs() < 1e-12);
+        let rate = continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3);
+        assert!((rate.torques[0] - 10.0).abs() < 1e-12);
     }
 
     #[test]

@@ -72,7 +72,7 @@ pub struct Simulation {
     /// Bound on the RMS error of every mesh force over a run, relative to that force's RMS.
     /// [1e-12, 0.1]
     pub tolerance: f64,
-    /// 1: inputs are continued through steps for which the master gives no derivatives; 0: they are held.
+    /// How far inputs are continued through steps for which the master gives no derivatives: 1 wholly, 0 not at all. [0, 1]
     pub input_extrapolation: f64,
     /// Default end of a simulation [s]. > 0
     pub stop_time: f64,

@@ -44,9 +44,9 @@ impl Continuation {
         self.steps = [step, self.steps[0]];
     }
 
-    /// How the inputs change per second in the next step [s].
-    pub(super) fn rate(&mut self, inputs: &Inputs, next: f64) -> &Inputs {
-        let line = Line::over(self.steps, next);
+    /// How the inputs change per second in the next step [s]; `share` of it, from 0 to 1, counts.
+    pub(super) fn rate(&mut self, inputs: &Inputs, next: f64, share: f64) -> &Inputs {
+        let line = Line::over(self.steps, next, share);
         let ([one, two], change) = (&self.before, &mut self.rate);
         let torques = inputs.torques.iter().zip(&one.torques).zip(&two.torques);
         for (((now, one), two), change) in torques.zip(&mut change.torques) {
@@ -62,7 +62,8 @@ impl Continuation {
             let velocity = [0, 1]
                 .map(|axis| line.of(now.velocity[axis], one.velocity[axis], two.velocity[axis]));
             *change = BaseMotion {
-                displacement: [0, 1].map(|axis| now.velocity[axis] + 0.5 * next * velocity[axis]),
+                displacement: [0, 1]
+                    .map(|axis| share * now.velocity[axis] + 0.5 * next * velocity[axis]),
                 velocity,
             };
         }
@@ -89,7 +90,7 @@ struct Line {
 
 impl Line {
     /// w' = d_1 + (d_1 - d_2) (2 h / 3 + h_1) / (h_1 + h_2),   d_i = change / h_i (divided differences)
-    fn over([last, before]: [f64; 2], next: f64) -> Line {
+    fn over([last, before]: [f64; 2], next: f64, share: f64) -> Line {
         let known = |step: f64, after: f64| step > 0.0 && after <= LONGER * step;
         let weights = match (known(last, next), known(before, last)) {
             (false, _) => [0.0; 2],
@@ -99,7 +100,9 @@ impl Line {
                 [(1.0 + bend) / last, -bend / before]
             }
         };
-        Line { weights }
+        Line {
+            weights: weights.map(|weight| share * weight),
+        }
     }
 
     /// For a value now, at the start of the last step, and of the one before.
@@ -129,7 +132,7 @@ mod tests {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(0.0, 0.0, 0.0), 0.1);
         continuation.note(&inputs(0.01, 0.0, 0.01), 0.2);
-        let rate = continuation.rate(&inputs(0.09, 0.005, 0.09), 0.3);
+        let rate = continuation.rate(&inputs(0.09, 0.005, 0.09), 0.3, 1.0);
         // Half the step times the slope from 0.09 to the mean.
         assert!((0.15 * rate.torques[0] - 0.12).abs() < 1e-15);
         assert!((0.15 * rate.forces[0][0] - 0.24).abs() < 1e-15);
@@ -143,7 +146,7 @@ mod tests {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(5.0, 0.0, 0.0), 1e-9);
         assert_eq!(
-            continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3).torques,
+            continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3, 1.0).torques,
             [0.0]
         );
     }
@@ -152,14 +155,14 @@ mod tests {
     fn two_points_make_a_line() {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(5.0, 0.0, 0.0), 0.1);
-        let rate = continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3);
+        let rate = continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3, 1.0);
         assert!((rate.torques[0] - 10.0).abs() < 1e-12);
     }
 
     #[test]
     fn before_the_first_step_only_displacements_move() {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
-        let rate = continuation.rate(&inputs(6.0, 0.005, 0.1), 0.3);
+        let rate = continuation.rate(&inputs(6.0, 0.005, 0.1), 0.3, 1.0);
         assert_eq!(
             rate,
             &Inputs {

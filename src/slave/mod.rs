@@ -257,19 +257,19 @@ impl Slave {
             )));
         }
         let length = end - now;
-        let continued = self.config.simulation.input_extrapolation == 1.0;
+        let share = self.config.simulation.input_extrapolation;
         let mut rate = self.rate.as_ref();
-        if continued && rate.is_none() {
+        if share > 0.0 && rate.is_none() {
             // Outputs were read with the inputs continued; the next step begins with those that were set.
             simulation.inputs_mut().overwrite(&self.inputs);
-            rate = Some(self.continuation.rate(&self.inputs, length));
+            rate = Some(self.continuation.rate(&self.inputs, length, share));
         }
         if let Err(error) = simulation.advance_along(end, rate) {
             self.life_cycle = LifeCycle::Failed;
             let step = format!("the step from {time:?} s by {step:?} s");
             return Err(Error::new(format!("{step} failed: {error}")));
         }
-        if continued {
+        if share > 0.0 {
             self.continuation.note(&self.inputs, length);
         }
         if self.rate.take().is_some() {

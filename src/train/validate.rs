@@ -114,8 +114,8 @@ fn check_simulation(place: &Place, config: &Config, problems: &mut Vec<Problem>)
     let extrapolation = simulation.input_extrapolation;
     rules.ensure(
         "input_extrapolation",
-        extrapolation == 0.0 || extrapolation == 1.0,
-        || format!("must be 1 (on) or 0 (off), found {extrapolation}"),
+        (0.0..=1.0).contains(&extrapolation),
+        || format!("must be from 0 (off) to 1 (on), found {extrapolation}"),
     );
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");

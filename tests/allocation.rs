@@ -52,7 +52,15 @@ fn steps_inputs_and_outputs_allocate_nothing() {
 
 #[test]
 fn impacts_free_rotation_and_radial_forces_allocate_nothing_either() {
-    for name in ["rattle", "coast_down", "run_up", "rolling"] {
+    let names = [
+        "rattle",
+        "coast_down",
+        "run_up",
+        "rolling",
+        "boxed",
+        "boxed_journal",
+    ];
+    for name in names {
         let path = format!("{}/tests/models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         for solver in [SolverChoice::Exponential, SolverChoice::Newmark] {
@@ -67,6 +75,9 @@ fn impacts_free_rotation_and_radial_forces_allocate_nothing_either() {
                 let (before, refreshes) = (ALLOCATIONS.get(), simulation.counts().refreshes);
                 simulation.advance_to(2e-5 * f64::from(index)).unwrap();
                 assert!(simulation.motion().mesh_force(0).is_finite());
+                if simulation.model().housing.is_some() {
+                    assert!(simulation.motion().point_acceleration(0)[0].is_finite());
+                }
                 // Where the blocks follow the speed of a free rotation, they are taken apart anew before the step.
                 if simulation.counts().refreshes == refreshes {
                     assert_eq!(ALLOCATIONS.get() - before, 0, "{name}, {solver:?}");

@@ -145,7 +145,8 @@ impl Housing {
         held: impl Fn(usize) -> [f64; 2],
         loads: &[[f64; 2]],
     ) -> [f64; 2] {
-        let mut acceleration = vec![0.0; position.len()];
+        let rows = &self.points[point].rows;
+        let mut acceleration = [0.0; 2];
         for mode in &self.modes {
             let Mode {
                 place,
@@ -153,12 +154,17 @@ impl Housing {
                 damping_ratio: zeta,
             } = mode;
             for i in place.range() {
-                acceleration[i] = -2.0 * zeta * w * velocity[i] - w * w * position[i];
+                let own = -2.0 * zeta * w * velocity[i] - w * w * position[i];
+                for (row, sum) in rows.iter().zip(&mut acceleration) {
+                    *sum += row.entry(i) * own;
+                }
             }
         }
         let mut push = |point: &Point, force: [f64; 2]| {
-            for (row, force) in point.rows.iter().zip(force) {
-                row.add_to(force, &mut acceleration);
+            for (row, sum) in rows.iter().zip(&mut acceleration) {
+                for (pushed, force) in point.rows.iter().zip(force) {
+                    *sum += row.dot_row(pushed) * force;
+                }
             }
         };
         for (input, held_at) in self.holds.iter().enumerate() {
@@ -171,8 +177,7 @@ impl Housing {
                 push(point, loads[number]);
             }
         }
-        let rows = self.points[point].rows.each_ref();
-        rows.map(|row| row.dot(&acceleration))
+        acceleration
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The packed library is a release build and the library linked here is not: both do the same arithmetic.
 
-use geartrain::model::{Inputs, ModalModel};
+use geartrain::model::ModalModel;
 use geartrain::simulation::Simulation;
 use geartrain::train::{Loaded, load};
 

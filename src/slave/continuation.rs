@@ -70,15 +70,15 @@ impl Continuation {
         &self.rate
     }
 
-    /// Whether it belongs to inputs of this shape and consists of numbers.
+    /// Whether it belongs to inputs of this shape and what is known consists of numbers.
     pub(super) fn fits(&self, inputs: &Inputs) -> bool {
         let [one, two] = &self.before;
-        let known = |inputs_of: &&Inputs| inputs_of.is_like(inputs) && inputs_of.is_finite();
+        let known = |past: &Inputs| past.is_like(inputs) && past.is_finite();
         let lengths = self
             .steps
             .iter()
             .all(|step| step.is_finite() && *step >= 0.0);
-        lengths && [one, two, &self.rate].iter().all(known)
+        lengths && known(one) && known(two) && self.rate.is_like(inputs)
     }
 }
 

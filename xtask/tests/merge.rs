@@ -1,23 +1,12 @@
 //! `cargo xtask merge` and the platforms of `cargo xtask fmu`, as typed.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod support;
+
+use std::path::Path;
+use std::process::Output;
 
 use fmu_build::Archive;
-
-/// A folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("the target folder can be written");
-    folder
-}
-
-fn xtask(folder: &Path, words: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.current_dir(folder).args(words);
-    command.output().expect("xtask runs")
-}
+use support::{folder, xtask};
 
 fn error(output: &Output) -> String {
     assert!(!output.status.success(), "{output:?}");

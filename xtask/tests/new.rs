@@ -1,21 +1,10 @@
 //! `cargo xtask new` as a newcomer uses it, and messages as a terminal shows them.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod support;
 
-/// A folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("the target folder can be written");
-    folder
-}
+use std::path::Path;
 
-fn xtask(folder: &Path, words: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.current_dir(folder).args(words);
-    command.output().expect("xtask runs")
-}
+use support::{folder, xtask};
 
 #[test]
 fn the_new_file_is_valid_under_its_name_and_is_never_written_over() {

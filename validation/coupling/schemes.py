@@ -17,6 +17,12 @@ class HeldOldOutputs:
         self.forces = pair.train.get()
 
 
+class HeldOldOutputsAndContinued(HeldOldOutputs):
+    """the same with slaves that continue their inputs"""
+
+    parameters = {"simulation.input_extrapolation": 1.0}
+
+
 class Held:
     """parallel, inputs held, outputs re-evaluated with the inputs just set"""
 

@@ -13,7 +13,7 @@ import numpy as np
 from candidates import Averaged, Estimate, Estimated, Impedance, MeanOfParabola, Motion, Predicted, TransmissionLine
 from energy import energies
 from measure import GRID, Course, coupled, largest_stable_step, reference, step_for
-from schemes import (Derivatives, Held, HeldAndContinued, HeldOldOutputs, HeldWithoutVelocity, Rollback, Sequential,
+from schemes import (Derivatives, Held, HeldAndContinued, HeldOldOutputs, HeldOldOutputsAndContinued, HeldWithoutVelocity, Rollback, Sequential,
                      SequentialExtrapolated)
 
 matplotlib.use("Agg")  # draws into files, needs no screen
@@ -29,8 +29,9 @@ KINDS = ("bearing force", "mesh force", "acceleration")
 SCHEMES = {
     "parallel, velocity inputs left at 0": HeldWithoutVelocity,
     "parallel, held, outputs as of the end of the last step": HeldOldOutputs,
+    "the same, `simulation.input_extrapolation` = 1": HeldOldOutputsAndContinued,
     "parallel, held, outputs re-evaluated": Held,
-    "parallel, held, `simulation.input_extrapolation` = 1": HeldAndContinued,
+    "the same with `simulation.input_extrapolation` = 1": HeldAndContinued,
     "sequential, held forces": Sequential,
     "parallel, input derivatives": Derivatives,
     "sequential, extrapolated forces": SequentialExtrapolated,

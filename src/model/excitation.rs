@@ -11,7 +11,7 @@
 use super::radial::RadialBearing;
 use super::{BaseMotion, Course, Mesh, ModalModel, Rotor};
 use crate::rotor::BowLoad;
-use crate::solver::{Block, Forcing, Harmonic, Instant, Line, Piece, Ramp, Spring};
+use crate::solver::{Block, Forcing, Harmonic, Instant, Lines, Piece, Ramp, Spring};
 use crate::train;
 
 use super::spin::Spin;
@@ -145,7 +145,7 @@ impl Forcing for Excitation<'_> {
         &self,
         times: [f64; N],
         pieces: &[Piece],
-        lines: &mut [[Line; N]],
+        lines: &mut [Lines<N>],
     ) {
         for mesh in &self.model.meshes {
             mesh.lines_into(times, pieces, lines);

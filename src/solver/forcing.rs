@@ -36,12 +36,7 @@ pub trait Forcing {
     /// Whether all forces are straight lines in their own deflection and rate while their pieces last.
     fn is_straight(&self) -> bool;
     /// These lines at some times, for every coupling.
-    fn lines_into<const N: usize>(
-        &self,
-        times: [f64; N],
-        pieces: &[Piece],
-        lines: &mut [[Line; N]],
-    );
+    fn lines_into<const N: usize>(&self, times: [f64; N], pieces: &[Piece], lines: &mut [Lines<N>]);
     /// For every coupling how its own force depends on its own deflection and rate, as far as that is fast.
     fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]);
     /// Whether time alone ends pieces.
@@ -115,19 +110,29 @@ pub struct Spring {
     pub damping: f64,
 }
 
-/// A force as a straight line in deflection and rate.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Line {
-    /// Its slopes.
-    pub spring: Spring,
-    /// Its value at rest.
-    pub rest: f64,
+/// A force as straight lines in deflection and rate, at N times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lines<const N: usize> {
+    /// dF/dd.
+    pub stiffness: [f64; N],
+    /// dF/dd'.
+    pub damping: [f64; N],
+    /// The force at rest.
+    pub rest: [f64; N],
 }
 
-impl Line {
-    /// The force.
-    pub fn at(&self, deflection: f64, rate: f64) -> f64 {
-        self.spring.stiffness * deflection + self.spring.damping * rate + self.rest
+impl<const N: usize> Lines<N> {
+    /// No force.
+    pub const ZERO: Lines<N> = Lines {
+        stiffness: [0.0; N],
+        damping: [0.0; N],
+        rest: [0.0; N],
+    };
+
+    /// The force on one of them.
+    #[inline(always)]
+    pub fn at(&self, index: usize, deflection: f64, rate: f64) -> f64 {
+        self.stiffness[index] * deflection + self.damping[index] * rate + self.rest[index]
     }
 }
 

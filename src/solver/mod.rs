@@ -26,7 +26,7 @@ use nalgebra::DMatrix;
 
 pub use error::StepError;
 pub use exponential::Exponential;
-pub use forcing::{Forcing, Harmonic, Instant, Line, Piece, Ramp, Spring};
+pub use forcing::{Forcing, Harmonic, Instant, Lines, Piece, Ramp, Spring};
 pub use integrator::Integrator;
 pub use newmark::Newmark;
 pub use row::Row;

@@ -11,7 +11,7 @@
 
 use super::Mesh;
 use crate::mesh::StiffnessLaw;
-use crate::solver::{Instant, Line, Piece, Spring};
+use crate::solver::{Instant, Lines, Piece, Spring};
 
 /// A flank of a unilateral mesh that carries nothing, and one that does: pieces of its law.
 const OPEN: usize = 0;
@@ -118,36 +118,34 @@ impl Mesh {
         }
     }
 
-    /// The force of a coupling of the mesh as a line, in some phases with their stiffnesses: each flank, or what the torque
+    /// The force of a coupling of the mesh as lines, in some phases with their stiffnesses: each flank, or what the torque
     /// follows; nothing where a flank is open.
-    fn line<const N: usize>(
+    fn lines<const N: usize>(
         &self,
         number: usize,
         phases: &[Phase; N],
         stiffness: &[f64; N],
         pieces: &[Piece],
-    ) -> [Line; N] {
+    ) -> Lines<N> {
         let open = self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN;
         if open {
-            return [Line::default(); N];
+            return Lines::ZERO;
         }
         // Without backlash the second coupling follows the rotations alone.
         let bare = number == 1 && self.backlash.is_none();
         let straight = bare || (self.backlash.is_none() && self.error.is_zero());
-        core::array::from_fn(|i| {
-            let rest = if straight {
-                0.0
-            } else {
-                self.held_force(stiffness[i], self.compression(number, phases[i], [0.0; 2]))
-            };
-            Line {
-                spring: Spring {
-                    stiffness: stiffness[i],
-                    damping: self.damping,
-                },
-                rest,
+        let mut lines = Lines {
+            stiffness: *stiffness,
+            damping: [self.damping; N],
+            rest: [0.0; N],
+        };
+        if !straight {
+            let laws = phases.iter().zip(stiffness);
+            for (rest, (&phase, &k)) in lines.rest.iter_mut().zip(laws) {
+                *rest = self.held_force(k, self.compression(number, phase, [0.0; 2]));
             }
-        })
+        }
+        lines
     }
 
     /// k [N/m] in some phases, continued smoothly from a piece.
@@ -163,12 +161,12 @@ impl Mesh {
         &self,
         times: [f64; N],
         pieces: &[Piece],
-        lines: &mut [[Line; N]],
+        lines: &mut [Lines<N>],
     ) {
         let phases = times.map(|time| self.phase_at(time));
         let stiffness = self.stiffnesses(pieces[self.first_law], &phases);
         for (number, lines) in lines[self.couplings()].iter_mut().enumerate() {
-            *lines = self.line(number, &phases, &stiffness, pieces);
+            *lines = self.lines(number, &phases, &stiffness, pieces);
         }
     }
 
@@ -189,8 +187,8 @@ impl Mesh {
         let phase = [self.phase(at)];
         let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
         for (number, coupling) in self.couplings().enumerate() {
-            let [line] = self.line(number, &phase, &stiffness, pieces);
-            forces[coupling] = line.at(at.deflection[coupling], at.rate[coupling]);
+            let line = self.lines(number, &phase, &stiffness, pieces);
+            forces[coupling] = line.at(0, at.deflection[coupling], at.rate[coupling]);
         }
         if let Some(observer) = self.turning {
             forces[observer] = 0.0;
@@ -202,8 +200,11 @@ impl Mesh {
         let phase = [self.phase(at)];
         let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
         for (number, coupling) in self.couplings().enumerate() {
-            let [line] = self.line(number, &phase, &stiffness, pieces);
-            tangents[coupling] = line.spring;
+            let line = self.lines(number, &phase, &stiffness, pieces);
+            tangents[coupling] = Spring {
+                stiffness: line.stiffness[0],
+                damping: line.damping[0],
+            };
         }
         if let Some(observer) = self.turning {
             tangents[observer] = Spring::default();

@@ -7,11 +7,14 @@ use super::lanes::{Quad, add_product, neighbours};
 use super::part::Part;
 use crate::linalg::{Group, multiply_add};
 
+/// The pairs of one quad: the diagonal, and what each state takes from its neighbour.
+pub(super) type Pairs = [Quad; 2];
+
 /// The numbers of the matrix.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BlockDiagonal {
-    /// The diagonal and what each state takes from its neighbour; 0 within larger blocks.
-    pairs: Vec<[Quad; 2]>,
+    /// One entry per quad of states; 0 within larger blocks.
+    pub(super) pairs: Vec<Pairs>,
     /// Blocks of other sizes: first state, and the entries column by column.
     others: Vec<(usize, usize, Vec<f64>)>,
 }
@@ -86,14 +89,6 @@ impl BlockDiagonal {
         }
     }
 
-    /// y += A x in one quad, without larger blocks.
-    #[inline(always)]
-    pub(super) fn add_pairs(&self, quad: usize, x: &Quad, y: &mut Quad) {
-        let [own, across] = &self.pairs[quad];
-        add_product(y, own, x);
-        add_product(y, across, &neighbours(x));
-    }
-
     /// y += A x of the larger blocks.
     pub(super) fn add_others(&self, x: &[f64], y: &mut [f64]) {
         for (first, m, block) in &self.others {
@@ -101,4 +96,11 @@ impl BlockDiagonal {
             multiply_add(1.0, block, &x[range.clone()], &mut y[range]);
         }
     }
+}
+
+/// y += A x in one quad, without larger blocks.
+#[inline(always)]
+pub(super) fn add_pairs([own, across]: &Pairs, x: &Quad, y: &mut Quad) {
+    add_product(y, own, x);
+    add_product(y, across, &neighbours(x));
 }

@@ -7,17 +7,18 @@
 //!   f_j(x)   = sum over k of l_jk m_k(x),   m_k(x) = integral of e^(B (x h - s)) (s/h)^k ds b = k! x^(k+1) h phi_(k+1)(B x h) b
 //! ```
 //!
-//! What the couplings see at x follows by the product with their rows. Lists run over parts, then over what touches the
-//! part, then over its states.
+//! What the couplings see at x follows by the product with their rows. Lists run over parts or panels, then over what touches
+//! them, then over their states.
 
 use nalgebra::Complex;
 
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
 use super::lanes::Quad;
+use super::panel::{Panels, Place};
 use super::part::Part;
-use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POINTS, POWERS};
-use super::sight::{Readings, both};
+use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
+use super::sight::{Readings, STILL, both};
 use crate::linalg::{Group, Line, PHI_ORDERS, PhiFunctions, dot};
 
 /// The coefficients of all parts for one step length.
@@ -27,14 +28,14 @@ pub(super) struct Coefficients {
     pub(super) gain: BlockDiagonal,
     /// h^2 phi_2.
     pub(super) ramp_gain: BlockDiagonal,
-    /// What sensors read per B eta + load: per part, sensor and state.
+    /// What sensors read per B eta + load: per panel, sensor and state.
     pub(super) free: Vec<Readings>,
     /// The same per change of the load.
     pub(super) ramp: Vec<Readings>,
-    /// What the end takes from what acts on a part: per part and quad of states f_j of every node of every actuator, then the
+    /// What the end takes from what acts on a part: per part and quad of states -f_j of every node of every actuator, then the
     /// responses to the cosine and to the sine of every harmonic.
     pub(super) columns: Vec<Quad>,
-    /// What sensors read per cosine and sine of the angle of a harmonic: per part, harmonic and sensor.
+    /// What sensors read per cosine and sine of the angle of a harmonic: per panel, sensor and harmonic.
     pub(super) turning: Vec<[Readings; 2]>,
     /// e^(i w h) of every harmonic.
     pub(super) rotations: Vec<Complex<f64>>,
@@ -53,23 +54,16 @@ pub(super) struct Scratch {
     turned: Vec<Complex<f64>>,
 }
 
-/// Where the lists of a part begin.
-#[derive(Debug, Clone, Copy, Default)]
-struct Begin {
-    free: usize,
-    columns: usize,
-    turning: usize,
-}
-
-/// A place of the step: its number and x.
-type Place = (usize, f64);
+/// A node of the step: its number and x.
+type Spot = (usize, f64);
 
 /// One group of a part at a place of a step.
 #[derive(Clone, Copy)]
-struct Spot<'a> {
+struct Share<'a> {
     part: &'a Part,
     group: &'a Group,
-    place: Place,
+    place: &'a Place,
+    node: Spot,
     h: f64,
 }
 
@@ -96,30 +90,22 @@ impl Scratch {
     }
 }
 
-impl Begin {
-    /// Where those of the next part begin.
-    fn after(self, part: &Part) -> Begin {
-        let harmonics = part.harmonics.len();
-        Begin {
-            free: self.free + part.sensors.len() * part.len(),
-            columns: self.columns + part.columns() * part.quads().len(),
-            turning: self.turning + harmonics * part.sensors.len(),
-        }
-    }
-}
-
 impl Coefficients {
     /// Room for the coefficients of these parts under so many harmonics.
-    pub(super) fn unused(parts: &[Part], exchange: &Exchange, harmonics: usize) -> Coefficients {
-        let end = parts.iter().fold(Begin::default(), Begin::after);
-        let readings = [0.0; 2 * POINTS];
+    pub(super) fn unused(
+        parts: &[Part],
+        panels: &Panels,
+        exchange: &Exchange,
+        harmonics: usize,
+    ) -> Coefficients {
+        let columns = parts.iter().map(|part| part.columns() * part.quads().len());
         Coefficients {
             gain: BlockDiagonal::zero(parts),
             ramp_gain: BlockDiagonal::zero(parts),
-            free: vec![readings; end.free],
-            ramp: vec![readings; end.free],
-            columns: vec![[0.0; 4]; end.columns],
-            turning: vec![[readings; 2]; end.turning],
+            free: vec![STILL; panels.states],
+            ramp: vec![STILL; panels.states],
+            columns: vec![[0.0; 4]; columns.sum()],
+            turning: vec![[STILL; 2]; panels.harmonics],
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
@@ -142,14 +128,14 @@ impl Coefficients {
     /// Computes everything for steps of length h; `frequencies` are those of all harmonics [rad/s].
     pub(super) fn compute(
         &mut self,
-        (parts, exchange): (&[Part], &Exchange),
+        (parts, panels, exchange): (&[Part], &Panels, &Exchange),
         h: f64,
         frequencies: &[f64],
         scratch: &mut Scratch,
     ) {
         self.influences.clear();
-        for (point, place) in PLACES.into_iter().enumerate() {
-            let time = place * h;
+        for (point, x) in PLACES.into_iter().enumerate().skip(1) {
+            let time = x * h;
             for (turned, frequency) in scratch.turned.iter_mut().zip(frequencies) {
                 let (sine, cosine) = libm::sincos(frequency * time);
                 *turned = Complex::new(cosine, sine);
@@ -157,16 +143,15 @@ impl Coefficients {
             if point == END {
                 self.rotations.copy_from_slice(&scratch.turned);
             }
-            let mut begin = Begin::default();
-            for (number, part) in parts.iter().enumerate() {
-                self.compute_linear(part, begin, h, (point, place), (frequencies, scratch));
+            let mut columns = 0;
+            for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
+                self.compute_linear(part, place, h, (point, x), (frequencies, scratch));
                 if point == END {
-                    self.combine_columns(part, begin, scratch);
+                    self.combine_columns(part, &mut columns, scratch);
                 }
                 let influences = &mut self.influences;
                 add_influences(part, number, point, (exchange, influences), scratch);
-                self.compute_turning(part, begin, point, scratch);
-                begin = begin.after(part);
+                self.compute_turning(part, place, point, scratch);
             }
         }
     }
@@ -175,24 +160,25 @@ impl Coefficients {
     fn compute_linear(
         &mut self,
         part: &Part,
-        begin: Begin,
+        place: &Place,
         h: f64,
-        (point, x): Place,
+        (point, x): Spot,
         (frequencies, scratch): (&[f64], &mut Scratch),
     ) {
         scratch.clear(part);
         for (group, matrix) in part.groups.iter().map(|group| (group, &group.matrix)) {
-            let at = Spot {
+            let share = Share {
                 part,
                 group,
-                place: (point, x),
+                place,
+                node: (point, x),
                 h,
             };
             match scratch.phi.evaluate_small(matrix, x * h) {
-                Some(lines) => self.follow_lines(at, begin, &lines, scratch),
+                Some(lines) => self.follow_lines(share, &lines, scratch),
                 None => {
                     scratch.phi.evaluate(matrix, x * h);
-                    self.follow_block(at, begin, scratch);
+                    self.follow_block(share, scratch);
                 }
             }
             let (first, m) = (group.first, matrix.nrows());
@@ -209,16 +195,16 @@ impl Coefficients {
     }
 
     /// Responses and moments of a group of one or two states, whose phi_k are level + slope S.
-    fn follow_lines(
-        &mut self,
-        at: Spot<'_>,
-        begin: Begin,
-        phi: &[Line; PHI_ORDERS],
-        scratch: &mut Scratch,
-    ) {
-        let (Spot { part, group, .. }, (point, x)) = (at, at.place);
+    fn follow_lines(&mut self, share: Share<'_>, phi: &[Line; PHI_ORDERS], scratch: &mut Scratch) {
+        let Share {
+            part,
+            group,
+            place,
+            node: (point, x),
+            h,
+        } = share;
         let (states, own) = (part.len(), group.first..group.first + group.matrix.nrows());
-        let time = x * at.h;
+        let time = x * h;
         let responses = [
             (time, phi[1], &mut self.gain, &mut self.free),
             (time * time, phi[2], &mut self.ramp_gain, &mut self.ramp),
@@ -229,16 +215,17 @@ impl Coefficients {
                 gain.set_line(part, group, level, slope);
             }
             for sensor in 0..part.sensors.len() {
-                for state in own.clone().map(|state| sensor * states + state) {
+                for state in own.clone() {
+                    let readings = &mut seen[place.states(sensor) + state];
+                    let state = sensor * states + state;
                     let (rows, slopes) = (part.sensor_rows[state], part.sensor_slopes[state]);
-                    let readings = &mut seen[begin.free + state];
                     for (what, (row, along)) in rows.into_iter().zip(slopes).enumerate() {
-                        readings[what * POINTS + point] = level * row + slope * along;
+                        readings[what][point] = level * row + slope * along;
                     }
                 }
             }
         }
-        let (factors, mut power) = (FACTORIAL, at.h);
+        let (factors, mut power) = (FACTORIAL, h);
         let phi: [Line; POWERS] = core::array::from_fn(|k| {
             power *= x;
             let factor = factors[k] * power;
@@ -260,10 +247,16 @@ impl Coefficients {
     }
 
     /// Responses and moments of a larger group.
-    fn follow_block(&mut self, at: Spot<'_>, begin: Begin, scratch: &mut Scratch) {
-        let (Spot { part, group, .. }, (point, x)) = (at, at.place);
+    fn follow_block(&mut self, share: Share<'_>, scratch: &mut Scratch) {
+        let Share {
+            part,
+            group,
+            place,
+            node: (point, x),
+            h,
+        } = share;
         let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
-        let time = x * at.h;
+        let time = x * h;
         let responses = [
             (time, 1, &mut self.gain, &mut self.free),
             (time * time, 2, &mut self.ramp_gain, &mut self.ramp),
@@ -276,15 +269,15 @@ impl Coefficients {
             for sensor in 0..part.sensors.len() {
                 let start = sensor * states + first;
                 let rows = &part.sensor_rows[start..start + m];
-                let own = &mut seen[begin.free + start..][..m];
+                let own = &mut seen[place.states(sensor) + first..][..m];
                 for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
                     let [deflection, rate] = both(rows, phi);
-                    readings[point] = factor * deflection;
-                    readings[POINTS + point] = factor * rate;
+                    readings[0][point] = factor * deflection;
+                    readings[1][point] = factor * rate;
                 }
             }
         }
-        let mut power = at.h;
+        let mut power = h;
         for (k, factor) in FACTORIAL.into_iter().enumerate() {
             power *= x;
             let phi = scratch.phi.get(k + 1);
@@ -299,10 +292,11 @@ impl Coefficients {
         }
     }
 
-    /// The columns of the part, from moments and responses at the end.
-    fn combine_columns(&mut self, part: &Part, begin: Begin, scratch: &Scratch) {
+    /// The columns of the part, which begin at `begin`, from moments and responses at the end.
+    fn combine_columns(&mut self, part: &Part, begin: &mut usize, scratch: &Scratch) {
         let (states, width) = (part.len(), part.columns());
-        let own = &mut self.columns[begin.columns..][..width * part.quads().len()];
+        let own = &mut self.columns[*begin..][..width * part.quads().len()];
+        *begin += own.len();
         let turning = NODES * part.actuators.len();
         for state in 0..states {
             let (row, lane) = (&mut own[state / 4 * width..][..width], state % 4);
@@ -310,7 +304,7 @@ impl Coefficients {
             for (actuator, columns) in forces.chunks_exact_mut(NODES).enumerate() {
                 let moment = &scratch.moments[actuator * states + state];
                 for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
-                    column[lane] = dot(l, &moment[..NODES]);
+                    column[lane] = -dot(l, &moment[..NODES]);
                 }
             }
             for (number, columns) in angles.chunks_exact_mut(2).enumerate() {
@@ -321,20 +315,20 @@ impl Coefficients {
     }
 
     /// The response to the harmonics at a point: Re of it times e^(i angle) at the start of the step.
-    fn compute_turning(&mut self, part: &Part, begin: Begin, point: usize, scratch: &Scratch) {
-        let (states, sensors) = (part.len(), part.sensors.len());
+    fn compute_turning(&mut self, part: &Part, place: &Place, point: usize, scratch: &Scratch) {
+        let states = part.len();
         let responses = scratch.responses.chunks_exact(states.max(1));
         for (number, response) in responses.take(part.harmonics.len()).enumerate() {
-            let own = &mut self.turning[begin.turning + number * sensors..][..sensors];
-            for (rows, readings) in part.sensor_rows.chunks_exact(states).zip(&mut *own) {
+            for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
+                let readings = &mut self.turning[place.harmonics(sensor) + number];
                 let mut seen = [Complex::new(0.0, 0.0); 2];
                 for (response, row) in response.iter().zip(rows) {
                     seen[0] += response * row[0];
                     seen[1] += response * row[1];
                 }
                 for (what, seen) in seen.into_iter().enumerate() {
-                    readings[0][what * POINTS + point] = seen.re;
-                    readings[1][what * POINTS + point] = -seen.im;
+                    readings[0][what][point] = seen.re;
+                    readings[1][what][point] = -seen.im;
                 }
             }
         }

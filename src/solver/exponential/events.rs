@@ -8,7 +8,7 @@
 use super::super::march::{Ending, Span, Task};
 use super::super::{Forcing, Piece};
 use super::kernel::Kernel;
-use super::polynomials::{PLACES, POINTS};
+use super::polynomials::{END, NODES, PLACES};
 use super::sight::{Sight, instant};
 
 /// Accuracy of the time of an event, in parts of the way between two places.
@@ -20,7 +20,7 @@ const SMALLEST_MARGIN: f64 = 1e-12;
 /// Bounds of the part of the range of a margin that interpolation may miss: the root of the tolerance, because energies go
 /// with squares of depths.
 const CLEAR: (f64, f64) = (1e-5, 1e-2);
-/// Places between two points at which the interpolated motion is looked at.
+/// Places between two nodes at which the interpolated motion is looked at.
 const BETWEEN: usize = 6;
 
 /// What a step shows of the pieces.
@@ -34,8 +34,8 @@ pub(super) enum Sighting {
     Unclear { ratio: f64 },
 }
 
-/// The margins of one law at the start of a step and at its points.
-struct Margins([f64; POINTS + 1]);
+/// The margins of one law at the nodes of a step.
+struct Margins([f64; NODES]);
 
 impl Margins {
     fn least(&self) -> f64 {
@@ -53,7 +53,7 @@ impl Margins {
     }
 
     fn last(&self) -> f64 {
-        self.0[POINTS]
+        self.0[END]
     }
 }
 
@@ -130,19 +130,6 @@ struct View<'a, F> {
 }
 
 impl<F: Forcing> View<'_, F> {
-    /// When place number `index` comes, as part of the step: 0 is the start.
-    fn part(index: usize) -> f64 {
-        if index == 0 { 0.0 } else { PLACES[index - 1] }
-    }
-
-    fn seen(sight: &Sight, index: usize) -> &[Vec<f64>; 2] {
-        if index == 0 {
-            &sight.start
-        } else {
-            &sight.points[index - 1]
-        }
-    }
-
     fn margin(&self, seen: &[Vec<f64>; 2], part: f64) -> f64 {
         let at = instant(seen, self.span.at(part), self.slow);
         self.task.forcing.margin(self.law, self.piece, at)
@@ -150,31 +137,28 @@ impl<F: Forcing> View<'_, F> {
 
     /// `None` where only time ends the piece.
     fn margins(&self, sight: &Sight) -> Option<Margins> {
-        let margin = |index| self.margin(Self::seen(sight, index), Self::part(index));
+        let margin = |node: usize| self.margin(&sight.nodes[node], PLACES[node]);
         let first = margin(0);
         (first != f64::INFINITY).then(|| {
-            Margins(core::array::from_fn(|index| {
-                if index == 0 { first } else { margin(index) }
+            Margins(core::array::from_fn(|node| {
+                if node == 0 { first } else { margin(node) }
             }))
         })
     }
 
     /// The margin at a part of the step, interpolated between two places.
     fn interpolated(&self, sight: &mut Sight, between: [usize; 2], part: f64) -> f64 {
-        let [from, to] = between.map(Self::part);
+        let [from, to] = between.map(|node| PLACES[node]);
         let width = (to - from) * self.span.step;
         let s = (part - from) / (to - from);
         let mut trial = core::mem::take(&mut sight.trial);
-        let [left, right] = between.map(|index| Self::seen(sight, index));
+        let [left, right] = between.map(|node| &sight.nodes[node]);
         for coupling in 0..left[0].len() {
             // Movements, because the slope is a difference over a width that may be tiny.
-            let moved = between.map(|index| match index {
-                0 => 0.0,
-                index => sight.moved(coupling, index - 1),
-            });
+            let moved = between.map(|node| sight.moved(coupling, node));
             let end = |moved: f64, seen: &[Vec<f64>; 2]| [moved, seen[1][coupling] * width];
             let (value, slope) = hermite(end(moved[0], left), end(moved[1], right), s);
-            trial[0][coupling] = sight.start[0][coupling] + value;
+            trial[0][coupling] = sight.nodes[0][0][coupling] + value;
             trial[1][coupling] = slope / width;
         }
         let margin = self.margin(&trial, part);
@@ -185,18 +169,18 @@ impl<F: Forcing> View<'_, F> {
     /// The largest error of interpolation over two neighbouring intervals.
     fn missed(&self, sight: &mut Sight, margins: &Margins) -> f64 {
         let mut missed = 0.0_f64;
-        for index in 1..POINTS {
-            let found = self.interpolated(sight, [index - 1, index + 1], Self::part(index));
-            missed = missed.max((found - margins.0[index]).abs());
+        for node in 1..END {
+            let found = self.interpolated(sight, [node - 1, node + 1], PLACES[node]);
+            missed = missed.max((found - margins.0[node]).abs());
         }
         missed
     }
 
     /// When the margin falls below -`slack`.
     fn end(&self, sight: &mut Sight, slack: f64) -> Option<f64> {
-        for index in 0..POINTS {
-            let between = [index, index + 1];
-            let [from, to] = between.map(Self::part);
+        for node in 0..END {
+            let between = [node, node + 1];
+            let [from, to] = between.map(|node| PLACES[node]);
             let place = |step: usize| from + (to - from) * step as f64 / BETWEEN as f64;
             for step in 1..=BETWEEN {
                 let margin = self.interpolated(sight, between, place(step));

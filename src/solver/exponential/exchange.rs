@@ -8,9 +8,11 @@
 //!   d(point) = free response - sum over pairs and nodes of e_d F_actuator(node)          d' likewise with e_v
 //! ```
 
+use core::ops::Range;
+
 use super::part::Part;
-use super::polynomials::{BUBBLES, CHECKS, LAGRANGE, NODES, POINTS, POWERS};
-use super::sight::{Readings, accumulate};
+use super::polynomials::{BUBBLES, CHECKS, LAGRANGE, NODES, POWERS};
+use super::sight::{Readings, STILL};
 
 /// A coupling that sees and one that acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,8 +25,8 @@ pub(super) struct Pair {
 #[derive(Debug, Clone)]
 pub(super) struct Exchange {
     pub(super) pairs: Vec<Pair>,
-    /// For every coupling the pairs that other ones act on it by: their numbers and actuators.
-    pub(super) others: Vec<Vec<(usize, usize)>>,
+    /// Where the pairs of each sensor begin, and where the last ones end.
+    of_sensor: Vec<usize>,
     /// For every part the pair of each actuator and sensor, sensors running fastest.
     of_part: Vec<Vec<usize>>,
 }
@@ -55,35 +57,22 @@ impl Exchange {
         pairs.dedup();
         let number = |pair: &Pair| pairs.partition_point(|other| other < pair);
         let of_part = |part: &Part| joined(part).iter().map(number).collect();
-        let others = |sensor: usize| {
-            let numbered = pairs.iter().enumerate();
-            let acting = numbered.filter(|(_, pair)| pair.sensor == sensor);
-            acting
-                .filter(|(_, pair)| pair.actuator != sensor)
-                .map(|(number, pair)| (number, pair.actuator))
-                .collect()
-        };
+        let begin = |sensor: usize| pairs.partition_point(|pair| pair.sensor < sensor);
         Exchange {
+            of_sensor: (0..=couplings).map(begin).collect(),
             of_part: parts.iter().map(of_part).collect(),
-            others: (0..couplings).map(others).collect(),
             pairs,
         }
     }
 
-    /// Deflections and rates become smaller by what the forces do to them.
-    pub(super) fn exert(
-        &self,
-        influences: &Influences,
-        forces: &[[f64; NODES]],
-        seen: &mut [Readings],
-    ) {
-        for (pair, influence) in self.pairs.iter().zip(&influences.of_pairs) {
-            let against = forces[pair.actuator].map(|force| -force);
-            accumulate(&mut seen[pair.sensor], influence, &against);
-        }
+    /// The numbers of the pairs of a sensor.
+    #[inline(always)]
+    pub(super) fn pairs_of(&self, sensor: usize) -> Range<usize> {
+        self.of_sensor[sensor]..self.of_sensor[sensor + 1]
     }
 
     /// How what is missing in the forces at the checks would change deflections and rates at the end.
+    #[inline(always)]
     pub(super) fn exert_missing(
         &self,
         influences: &Influences,
@@ -105,7 +94,7 @@ impl Influences {
     pub(super) fn unused(exchange: &Exchange) -> Influences {
         let count = exchange.pairs.len();
         Influences {
-            of_pairs: vec![[[0.0; 2 * POINTS]; NODES]; count],
+            of_pairs: vec![[STILL; NODES]; count],
             bubbles: vec![[[0.0; CHECKS]; 2]; count],
         }
     }
@@ -117,7 +106,7 @@ impl Influences {
 
     /// No influence, before the parts add theirs.
     pub(super) fn clear(&mut self) {
-        self.of_pairs.fill([[0.0; 2 * POINTS]; NODES]);
+        self.of_pairs.fill([STILL; NODES]);
         self.bubbles.fill([[0.0; CHECKS]; 2]);
     }
 
@@ -132,7 +121,7 @@ impl Influences {
     ) {
         let pair = exchange.of_part[part][entry];
         for (target, polynomial) in self.of_pairs[pair].iter_mut().zip(&LAGRANGE) {
-            target[what * POINTS + point] += product(polynomial, seen);
+            target[what][point] += product(polynomial, seen);
         }
     }
 

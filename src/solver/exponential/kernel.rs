@@ -11,14 +11,17 @@ use super::events::Sighting;
 use super::exchange::Exchange;
 use super::lanes::Quad;
 use super::motion::Motion;
-use super::nodes::Nodes;
+use super::nodes::{Nodes, accuracy};
+use super::panel::Panels;
 use super::part::{Part, take_apart};
-use super::passes::{LookAhead, Move, PutTogether, TakeLoads};
-use super::sight::{Sight, both, instant};
+use super::passes::{LookAhead, Move, Observe, PutTogether, SolveLines, TakeLoads};
+use super::sight::{Sight, instant};
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
 const LENGTHS: usize = 160;
 const MEMORY: usize = 16 << 20;
+/// Lengths are looked up by so many values of their bits.
+const LENGTHS_TOLD_APART: usize = 256;
 /// What part of a step is tried whose forces are not found.
 const SHORTER: f64 = 0.4;
 /// Steps with more than the bound are still accepted up to here: the estimate is no sharper.
@@ -32,6 +35,7 @@ pub(super) struct Kernel {
     used_slow: Vec<f64>,
     present_slow: Vec<f64>,
     parts: Vec<Part>,
+    panels: Panels,
     motion: Motion,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
@@ -39,8 +43,8 @@ pub(super) struct Kernel {
     /// The lengths themselves [s]; 0 while unused.
     steps: Vec<f64>,
     next_length: usize,
-    /// The one used last.
-    latest: usize,
+    /// Where lengths were found last, by some of their bits.
+    found: [u8; LENGTHS_TOLD_APART],
     scratch: Scratch,
     /// What acts on one part in a step.
     acting: Vec<[f64; 2]>,
@@ -55,7 +59,8 @@ impl Kernel {
     pub(super) fn new(system: &System, harmonics: &[Harmonic]) -> Kernel {
         let parts = take_apart(system, &system.blocks, harmonics);
         let exchange = Exchange::between(&parts, system.couplings.len());
-        let unused = Coefficients::unused(&parts, &exchange, harmonics.len());
+        let panels = Panels::of(&parts);
+        let unused = Coefficients::unused(&parts, &panels, &exchange, harmonics.len());
         let affordable = (MEMORY / unused.bytes().max(1)).clamp(4, LENGTHS);
         let couplings = system.couplings.len();
         Kernel {
@@ -67,14 +72,15 @@ impl Kernel {
             lengths: vec![unused; affordable],
             steps: vec![0.0; affordable],
             next_length: 0,
-            latest: 0,
+            found: [0; LENGTHS_TOLD_APART],
             scratch: Scratch::new(&parts, harmonics.len()),
-            acting: vec![[0.0; 2]; parts.iter().map(Part::columns).max().unwrap_or(0)],
+            acting: vec![[0.0; 2]; parts.iter().map(Part::columns).max().unwrap_or(0) / 2],
             sight: Sight::new(couplings),
             nodes: Nodes::new(couplings, &exchange),
             counts: Counts::default(),
             arch: Arch::new(),
             exchange,
+            panels,
             parts,
         }
     }
@@ -136,6 +142,7 @@ impl Kernel {
             self.used_slow.clone_from(&state.slow);
             task.forcing.blocks_into(&self.used_slow, &mut self.blocks);
             self.parts = take_apart(task.system, &self.blocks, task.forcing.harmonics());
+            self.panels = Panels::of(&self.parts);
             self.motion = Motion::new(&self.parts, task.system.loads.len());
             let harmonics = self.frequencies.len();
             self.scratch = Scratch::new(&self.parts, harmonics);
@@ -149,18 +156,21 @@ impl Kernel {
 
     /// The coefficients for this step length, computed unless they are kept from earlier steps.
     fn coefficients_for(&mut self, h: f64) -> usize {
-        if self.steps[self.latest] == h {
-            return self.latest;
+        // The bits that few lengths share: the product spreads them to the top.
+        let told_apart = h.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56;
+        let found = &mut self.found[told_apart as usize];
+        if self.steps[usize::from(*found)] == h {
+            return usize::from(*found);
         }
         if let Some(index) = self.steps.iter().position(|&step| step == h) {
-            self.latest = index;
+            *found = index as u8;
             return index;
         }
         let index = self.next_length;
         self.next_length = (index + 1) % self.lengths.len();
-        self.latest = index;
+        *found = index as u8;
         self.counts.factorizations += 1;
-        let parts = (self.parts.as_slice(), &self.exchange);
+        let parts = (self.parts.as_slice(), &self.panels, &self.exchange);
         self.steps[index] = h;
         self.lengths[index].compute(parts, h, &self.frequencies, &mut self.scratch);
         index
@@ -200,27 +210,23 @@ impl Kernel {
 
 impl Method for Kernel {
     fn observe<F: Forcing>(&mut self, _: Task<'_, F>, _: &mut State) {
-        let [deflection, rate] = &mut self.sight.start;
-        deflection.fill(0.0);
-        rate.fill(0.0);
-        for part in &self.parts {
-            let own = self.motion.states[part.quads()].as_flattened();
-            let rows = part.sensor_rows.chunks_exact(own.len().max(1));
-            for (rows, &sensor) in rows.zip(&part.sensors) {
-                let seen = both(rows, own);
-                deflection[sensor] += seen[0];
-                rate[sensor] += seen[1];
-            }
-        }
+        self.arch.dispatch(Observe {
+            panels: &self.panels.all,
+            states: &self.motion.states,
+            sight: &mut self.sight,
+        });
     }
 
     fn instant<'a>(&'a self, state: &'a State) -> Instant<'a> {
-        instant(&self.sight.start, state.time, &state.slow)
+        instant(&self.sight.nodes[0], state.time, &state.slow)
     }
 
     fn begin<F: Forcing>(&mut self, task: Task<'_, F>, state: &State, pieces: &[Piece]) {
+        if task.forcing.is_straight() {
+            return; // lines are drawn at the start of every step
+        }
         let sight = &mut self.sight;
-        let at = instant(&sight.start, state.time, &state.slow);
+        let at = instant(&sight.nodes[0], state.time, &state.slow);
         task.forcing.forces_into(at, pieces, &mut sight.present);
         for (forces, &present) in sight.forces.iter_mut().zip(&sight.present) {
             forces[0] = present;
@@ -238,20 +244,34 @@ impl Method for Kernel {
     ) -> Result<Outcome, StepError> {
         let index = self.coefficients_for(canonical(span.step));
         state.turning.find(task.forcing.harmonics(), span.start);
-        let elapsed = span.start - task.forcing.since();
-        self.arch.dispatch(LookAhead {
-            parts: &self.parts,
-            coefficients: &self.lengths[index],
+        let straight = task.forcing.is_straight();
+        if straight {
+            self.nodes.draw(task, span, pieces);
+        }
+        let coefficients = &self.lengths[index];
+        let ahead = LookAhead {
+            panels: &self.panels.all,
+            coefficients,
             motion: &mut self.motion,
             sight: &mut self.sight,
             turning: &state.turning,
-            elapsed,
-        });
-        let at = (span, state.slow.as_slice());
-        let exchange = (&self.exchange, &self.lengths[index].influences);
-        let found = self
-            .nodes
-            .solve(task, at, pieces, exchange, &mut self.sight);
+            elapsed: span.start - task.forcing.since(),
+        };
+        let found = if straight {
+            self.arch.dispatch(SolveLines {
+                ahead,
+                nodes: &mut self.nodes,
+                exchange: &self.exchange,
+                asked: (span.step, accuracy(task.tolerance)),
+            })
+        } else {
+            self.arch.dispatch(ahead);
+            let (at, between) = (
+                (span, state.slow.as_slice()),
+                (&self.exchange, &coefficients.influences),
+            );
+            self.nodes.sweep(task, at, pieces, between, &mut self.sight)
+        };
         if !found {
             self.counts.rejected += 1;
             if self.sight.forces.iter().all(|forces| forces[0].is_finite()) {
@@ -262,6 +282,9 @@ impl Method for Kernel {
         let sighting = if task.forcing.is_timed() {
             Sighting::Clear
         } else {
+            if straight {
+                self.sight.show();
+            }
             self.sight_events(task, &state.slow, span, pieces, endings)
         };
         match sighting {
@@ -272,10 +295,12 @@ impl Method for Kernel {
             }
             Sighting::Clear => {}
         }
-        let at = (span, state.slow.as_slice());
-        let exchange = (&self.exchange, &self.lengths[index].influences);
-        self.nodes
-            .look_for_errors(task, at, pieces, exchange, &mut self.sight);
+        if !straight {
+            let at = (span, state.slow.as_slice());
+            let between = (&self.exchange, &self.lengths[index].influences);
+            self.nodes
+                .look_for_errors(task, at, pieces, between, &mut self.sight);
+        }
         let error = self.error(task, state, span);
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: span.end });

@@ -25,6 +25,20 @@ pub(super) fn add_multiple(sum: &mut Quad, factor: f64, x: &Quad) {
     add_product(sum, &[factor; 4], x);
 }
 
+/// sum -= factor x.
+#[inline(always)]
+pub(super) fn subtract_multiple(sum: &mut Quad, factor: f64, x: &Quad) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum -= factor * x;
+    }
+}
+
+/// The sum of all four.
+#[inline(always)]
+pub(super) fn sum([a, b, c, d]: &Quad) -> f64 {
+    (a + c) + (b + d)
+}
+
 /// The neighbour of each within its pair.
 #[inline(always)]
 pub(super) fn neighbours([a, b, c, d]: &Quad) -> Quad {

@@ -3,7 +3,7 @@
 //! ```text
 //!   eta' = B eta + load(t) - sum over m of b_m F_m(t, d, d')       decoupled states of every block (`part`)
 //!   F_m(s) = sum over j of l_j(s/h) F_m(s_j)                       cubic through four Lobatto nodes (`polynomials`)
-//!   F_j = F(s_j, d(s_j), d'(s_j))                                  solved by iteration: the forces are few (`nodes`)
+//!   F_j = F(s_j, d(s_j), d'(s_j))                                  the forces are few (`nodes`, `equations`)
 //! ```
 //!
 //! However fast a mode of the blocks is, the step does not feel it: only the forces have to be followed. Torques,
@@ -17,12 +17,14 @@
 mod block_diagonal;
 mod coefficients;
 mod control;
+mod equations;
 mod events;
 mod exchange;
 mod kernel;
 mod lanes;
 mod motion;
 mod nodes;
+mod panel;
 mod part;
 mod passes;
 mod polynomials;

@@ -1,7 +1,7 @@
 //! The motion of all parts in decoupled states.
 
 use super::super::{Ramp, State};
-use super::block_diagonal::BlockDiagonal;
+use super::block_diagonal::{BlockDiagonal, add_pairs};
 use super::lanes::{Quad, add_multiple};
 use super::part::Part;
 use crate::linalg::{add_scaled, multiply_add};
@@ -118,13 +118,15 @@ impl Motion {
     #[inline(always)]
     pub(super) fn differentiate(&mut self, elapsed: f64) {
         let quads = self.derivative.iter_mut().zip(&self.states).zip(&self.load);
-        for (quad, ((derivative, state), load)) in quads.enumerate() {
+        for (((derivative, state), load), pairs) in quads.zip(&self.dynamics.pairs) {
             let mut sum = *load;
-            if self.ramps {
-                add_multiple(&mut sum, elapsed, &self.load_rate[quad]);
-            }
-            self.dynamics.add_pairs(quad, state, &mut sum);
+            add_pairs(pairs, state, &mut sum);
             *derivative = sum;
+        }
+        if self.ramps {
+            for (derivative, rate) in self.derivative.iter_mut().zip(&self.load_rate) {
+                add_multiple(derivative, elapsed, rate);
+            }
         }
         let states = self.states.as_flattened();
         self.dynamics
@@ -141,22 +143,29 @@ impl Motion {
         columns: &[Quad],
         acting: &[[f64; 2]],
     ) {
-        let width = 2 * acting.len();
-        for (number, quad) in part.quads().enumerate() {
+        let range = part.quads();
+        let states = self.states[range.clone()].iter_mut();
+        let derivatives = &self.derivative[range.clone()];
+        let gains = &gain.pairs[range.clone()];
+        let mut columns = columns;
+        for ((state, derivative), gain) in states.zip(derivatives).zip(gains) {
             // Two sums, so that one addition need not wait for the last.
-            let mut sums = [self.states[quad], [0.0; 4]];
-            gain.add_pairs(quad, &self.derivative[quad], &mut sums[1]);
-            if self.ramps {
-                ramp_gain.add_pairs(quad, &self.load_rate[quad], &mut sums[0]);
+            let (mut one, mut two) = (*state, [0.0; 4]);
+            add_pairs(gain, derivative, &mut two);
+            let (own, others) = columns.split_at(2 * acting.len());
+            for (columns, factors) in own.as_chunks::<2>().0.iter().zip(acting) {
+                add_multiple(&mut one, factors[0], &columns[0]);
+                add_multiple(&mut two, factors[1], &columns[1]);
             }
-            let own = &columns[number * width..(number + 1) * width];
-            for (pair, factors) in own.chunks_exact(2).zip(acting) {
-                for ((sum, column), factor) in sums.iter_mut().zip(pair).zip(factors) {
-                    add_multiple(sum, *factor, column);
-                }
+            columns = others;
+            *state = core::array::from_fn(|i| one[i] + two[i]);
+        }
+        if self.ramps {
+            let states = self.states[range.clone()].iter_mut();
+            let rates = &self.load_rate[range.clone()];
+            for ((state, rate), gain) in states.zip(rates).zip(&ramp_gain.pairs[range]) {
+                add_pairs(gain, rate, state);
             }
-            let [one, two] = sums;
-            self.states[quad] = core::array::from_fn(|i| one[i] + two[i]);
         }
     }
 

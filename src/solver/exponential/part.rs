@@ -121,12 +121,7 @@ impl Part {
         self.shapes.ncols()
     }
 
-    /// Its states among those of all parts.
-    pub(super) fn states(&self) -> core::ops::Range<usize> {
-        self.first..self.first + self.len()
-    }
-
-    /// The same in fours.
+    /// Its states among those of all parts, in fours.
     pub(super) fn quads(&self) -> core::ops::Range<usize> {
         self.first / 4..(self.first + self.len()) / 4
     }

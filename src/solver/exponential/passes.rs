@@ -1,8 +1,10 @@
-//! The loops that run over all states, two in a step and two around a call.
+//! The loops that run over all states.
 //!
 //! ```text
 //!   take loads     load = sum of columns times inputs
+//!   observe        deflections and rates = rows eta
 //!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
+//!   solve lines    the forces at the nodes from these, where all laws are straight lines
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
 //!   put together   [q; q'] = V eta
 //! ```
@@ -13,10 +15,14 @@ use pulp::{Simd, WithSimd};
 
 use super::super::{Ramp, State};
 use super::coefficients::Coefficients;
+use super::exchange::Exchange;
+use super::lanes::{Quad, add_product, sum};
 use super::motion::Motion;
+use super::nodes::Nodes;
+use super::panel::Panel;
 use super::part::Part;
 use super::polynomials::NODES;
-use super::sight::{Sight, accumulate};
+use super::sight::{STILL, Sight, accumulate, accumulate_all};
 use super::turning::Turning;
 
 /// The loads of a call.
@@ -26,15 +32,31 @@ pub(super) struct TakeLoads<'a> {
     pub(super) ramps: &'a [Ramp],
 }
 
-/// What the couplings see at the points without forces.
+/// What the couplings see at the start of a step.
+pub(super) struct Observe<'a> {
+    pub(super) panels: &'a [Panel],
+    pub(super) states: &'a [Quad],
+    pub(super) sight: &'a mut Sight,
+}
+
+/// What the couplings see at the nodes without forces.
 pub(super) struct LookAhead<'a> {
-    pub(super) parts: &'a [Part],
+    pub(super) panels: &'a [Panel],
     pub(super) coefficients: &'a Coefficients,
     pub(super) motion: &'a mut Motion,
     pub(super) sight: &'a mut Sight,
     pub(super) turning: &'a Turning,
     /// Seconds since the start of the call.
     pub(super) elapsed: f64,
+}
+
+/// The same, and the forces of laws that are straight lines. Gives whether they were found.
+pub(super) struct SolveLines<'a> {
+    pub(super) ahead: LookAhead<'a>,
+    pub(super) nodes: &'a mut Nodes,
+    pub(super) exchange: &'a Exchange,
+    /// The length of the step [s], and how accurate the forces are to be.
+    pub(super) asked: (f64, f64),
 }
 
 /// From the start of the step to its end.
@@ -74,40 +96,90 @@ impl WithSimd for PutTogether<'_> {
     }
 }
 
-impl WithSimd for LookAhead<'_> {
+impl WithSimd for Observe<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (motion, sight) = (self.motion, self.sight);
+        let [deflections, rates] = &mut self.sight.nodes[0];
+        deflections.fill(0.0);
+        rates.fill(0.0);
+        for panel in self.panels {
+            let own = &self.states[panel.quads.clone()];
+            let mut rows = panel.rows.as_slice();
+            for &sensor in &panel.sensors {
+                let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
+                for (states, [per_deflection, per_rate]) in own.iter().zip(rows) {
+                    add_product(&mut deflection, per_deflection, states);
+                    add_product(&mut rate, per_rate, states);
+                }
+                rows = &rows[own.len()..];
+                deflections[sensor] += sum(&deflection);
+                rates[sensor] += sum(&rate);
+            }
+        }
+    }
+}
+
+impl LookAhead<'_> {
+    #[inline(always)]
+    fn look(&mut self) {
+        let (motion, sight) = (&mut *self.motion, &mut *self.sight);
         motion.differentiate(self.elapsed);
-        sight.stand_still();
-        let derivative = motion.derivative.as_flattened();
-        let load_rate = motion.load_rate.as_flattened();
+        sight.free.fill(STILL);
         let Coefficients {
             free,
             ramp,
             turning,
             ..
         } = self.coefficients;
-        let (mut first, mut turned) = (0, turning.iter());
-        for part in self.parts {
-            let (states, own) = (part.len(), part.states());
-            for &sensor in &part.sensors {
-                let (rows, seen) = (first..first + states, &mut sight.free[sensor]);
-                accumulate(seen, &free[rows.clone()], &derivative[own.clone()]);
+        let (mut free, mut ramp, mut turning) = (&free[..], &ramp[..], &turning[..]);
+        for panel in self.panels {
+            let derivative = &motion.derivative[panel.quads.clone()];
+            for &sensor in &panel.sensors {
+                let mut seen = sight.free[sensor];
+                accumulate_all(&mut seen, take(&mut free, panel.len()), derivative);
+                let ramp = take(&mut ramp, panel.len());
                 if motion.ramps {
-                    accumulate(seen, &ramp[rows], &load_rate[own.clone()]);
+                    accumulate_all(&mut seen, ramp, &motion.load_rate[panel.quads.clone()]);
                 }
-                first += states;
-            }
-            for (harmonic, _) in &part.harmonics {
-                let angle = &self.turning.angles[*harmonic];
-                for (&sensor, turned) in part.sensors.iter().zip(&mut turned) {
-                    accumulate(&mut sight.free[sensor], turned, angle);
+                let turning = take(&mut turning, panel.harmonics.len());
+                for (&harmonic, [per_cosine, per_sine]) in panel.harmonics.iter().zip(turning) {
+                    let [cosine, sine] = self.turning.angles[harmonic];
+                    accumulate(&mut seen, cosine, per_cosine);
+                    accumulate(&mut seen, sine, per_sine);
                 }
+                sight.free[sensor] = seen;
             }
         }
+    }
+}
+
+/// The first entries of a list, which then begins behind them.
+#[inline(always)]
+fn take<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {
+    let (first, others) = list.split_at(count);
+    *list = others;
+    first
+}
+
+impl WithSimd for LookAhead<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) {
+        self.look();
+    }
+}
+
+impl WithSimd for SolveLines<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) -> bool {
+        self.ahead.look();
+        let between = (self.exchange, &self.ahead.coefficients.influences);
+        self.nodes.solve(between, self.asked, self.ahead.sight)
     }
 }
 
@@ -126,16 +198,15 @@ impl WithSimd for Move<'_> {
         for part in self.parts {
             let acting = &mut self.acting[..part.columns() / 2];
             let (forces, angles) = acting.split_at_mut(NODES / 2 * part.actuators.len());
-            for (target, &actuator) in forces.chunks_exact_mut(2).zip(&part.actuators) {
+            for (target, &actuator) in forces.as_chunks_mut().0.iter_mut().zip(&part.actuators) {
                 let [a, b, c, d] = self.sight.forces[actuator];
-                target.copy_from_slice(&[[-a, -b], [-c, -d]]);
+                *target = [[a, b], [c, d]];
             }
             for (target, (harmonic, _)) in angles.iter_mut().zip(&part.harmonics) {
                 *target = self.turning.angles[*harmonic];
             }
-            let (own, others) = columns.split_at(part.columns() * part.quads().len());
+            let own = take(&mut columns, part.columns() * part.quads().len());
             self.motion.advance(part, [gain, ramp_gain], own, acting);
-            columns = others;
         }
         self.motion.advance_others(gain, ramp_gain);
     }

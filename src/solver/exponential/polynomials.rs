@@ -5,16 +5,16 @@
 //! from one level to another are odd about the middle of the step. What the couplings see there is interpolated from deflections
 //! and rates at the nodes: eight numbers, so that the motion is known far better than the cubic knows the force.
 
-/// Nodes of the force polynomial.
+use super::lanes::Quad;
+
+/// Nodes of the force polynomial. The force at the first one, the start, is known; those at the others are to be found.
 pub(super) const NODES: usize = 4;
-/// The nodes behind the first one, whose forces are to be found.
-pub(super) const POINTS: usize = NODES - 1;
-/// Where they are in the step: a, b, 1 with a = (1 - 1/sqrt 5)/2, b = 1 - a.
-pub(super) const PLACES: [f64; POINTS] = [INNER, 1.0 - INNER, 1.0];
+/// Where they are in the step: 0, a, b, 1 with a = (1 - 1/sqrt 5)/2, b = 1 - a.
+pub(super) const PLACES: [f64; NODES] = [0.0, INNER, 1.0 - INNER, 1.0];
 const INNER: f64 = 0.276_393_202_250_021;
 const SQRT_5: f64 = 2.236_067_977_499_79;
-/// The point at the end of the step.
-pub(super) const END: usize = POINTS - 1;
+/// The node at the end of the step.
+pub(super) const END: usize = NODES - 1;
 /// Places for comparison: a/2 and 1 - a/2.
 pub(super) const CHECKS: usize = 2;
 pub(super) const CHECK_PLACES: [f64; CHECKS] = [0.5 * INNER, 1.0 - 0.5 * INNER];
@@ -35,89 +35,74 @@ pub(super) const LAGRANGE: [[f64; NODES]; NODES] = [
     ],
     [0.0, 1.0, -5.0, 5.0],
 ];
-/// l_j at the places for comparison.
-pub(super) const LAGRANGE_AT_CHECKS: [[f64; NODES]; CHECKS] = [
-    [
-        0.348_606_797_749_979,
-        0.779_508_497_187_473_7,
-        -0.184_016_994_374_947_42,
-        0.055_901_699_437_494_74,
-    ],
-    [
-        0.055_901_699_437_494_74,
-        -0.184_016_994_374_947_42,
-        0.779_508_497_187_473_7,
-        0.348_606_797_749_979,
-    ],
+/// l_j at the places for comparison, for every node.
+pub(super) const LAGRANGE_AT_CHECKS: [[f64; CHECKS]; NODES] = [
+    [0.348_606_797_749_979, 0.055_901_699_437_494_74],
+    [0.779_508_497_187_473_7, -0.184_016_994_374_947_42],
+    [-0.184_016_994_374_947_42, 0.779_508_497_187_473_7],
+    [0.055_901_699_437_494_74, 0.348_606_797_749_979],
 ];
 /// Polynomials of degree seven from values and slopes at the nodes, at the places for comparison.
-pub(super) const HERMITE_AT_CHECKS: [Hermite; CHECKS] = [
-    Hermite {
-        value: [
-            [
-                0.323_061_621_135_924_7,
-                0.607_633_497_187_473_7,
-                0.033_862_254_218_789_43,
-                0.035_442_627_457_812_1,
-            ],
-            [
-                0.016_794_576_808_202_5,
-                -0.083_972_884_041_012_5,
-                -0.019_823_308_900_386_19,
-                -0.002_693_135_621_484_342,
-            ],
+pub(super) const HERMITE_AT_CHECKS: Hermite = Hermite {
+    of_values: [
+        [
+            0.323_061_621_135_924_7,
+            0.035_442_627_457_812_1,
+            -5.070_515_495_046_595,
+            0.158_586_471_203_089_5,
         ],
-        slope: [
-            [
-                -5.070_515_495_046_595,
-                5.307_686_604_609_184,
-                -0.078_584_638_359_499_87,
-                -0.158_586_471_203_089_5,
-            ],
-            [
-                -0.217_879_248_593_736_86,
-                -0.125_870_751_406_263_14,
-                0.079_866_502_812_526_29,
-                0.012_325_849_718_747_37,
-            ],
+        [
+            0.607_633_497_187_473_7,
+            0.033_862_254_218_789_43,
+            5.307_686_604_609_184,
+            0.078_584_638_359_499_87,
         ],
-    },
-    Hermite {
-        value: [
-            [
-                0.035_442_627_457_812_1,
-                0.033_862_254_218_789_43,
-                0.607_633_497_187_473_7,
-                0.323_061_621_135_924_7,
-            ],
-            [
-                0.002_693_135_621_484_342,
-                0.019_823_308_900_386_19,
-                0.083_972_884_041_012_5,
-                -0.016_794_576_808_202_5,
-            ],
+        [
+            0.033_862_254_218_789_43,
+            0.607_633_497_187_473_7,
+            -0.078_584_638_359_499_87,
+            -5.307_686_604_609_184,
         ],
-        slope: [
-            [
-                0.158_586_471_203_089_5,
-                0.078_584_638_359_499_87,
-                -5.307_686_604_609_184,
-                5.070_515_495_046_595,
-            ],
-            [
-                0.012_325_849_718_747_37,
-                0.079_866_502_812_526_29,
-                -0.125_870_751_406_263_14,
-                -0.217_879_248_593_736_86,
-            ],
+        [
+            0.035_442_627_457_812_1,
+            0.323_061_621_135_924_7,
+            -0.158_586_471_203_089_5,
+            5.070_515_495_046_595,
         ],
-    },
-];
+    ],
+    of_slopes: [
+        [
+            0.016_794_576_808_202_5,
+            0.002_693_135_621_484_342,
+            -0.217_879_248_593_736_86,
+            0.012_325_849_718_747_37,
+        ],
+        [
+            -0.083_972_884_041_012_5,
+            0.019_823_308_900_386_19,
+            -0.125_870_751_406_263_14,
+            0.079_866_502_812_526_29,
+        ],
+        [
+            -0.019_823_308_900_386_19,
+            0.083_972_884_041_012_5,
+            0.079_866_502_812_526_29,
+            -0.125_870_751_406_263_14,
+        ],
+        [
+            -0.002_693_135_621_484_342,
+            -0.016_794_576_808_202_5,
+            0.012_325_849_718_747_37,
+            -0.217_879_248_593_736_86,
+        ],
+    ],
+};
 
-/// What a polynomial's value and slope at one place take from its values and from its slopes at the nodes.
+/// What a polynomial's values and slopes at the places for comparison take from its values and from its slopes at the nodes: for
+/// every node the value at either place, then the slope at either.
 pub(super) struct Hermite {
-    pub(super) value: [[f64; NODES]; 2],
-    pub(super) slope: [[f64; NODES]; 2],
+    pub(super) of_values: [Quad; NODES],
+    pub(super) of_slopes: [Quad; NODES],
 }
 
 /// Powers of s/h in use.
@@ -154,7 +139,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_one_at_their_own_place_and_zero_at_the_others() {
-        let nodes = [0.0, PLACES[0], PLACES[1], PLACES[2]];
+        let nodes = PLACES;
         let checks = CHECK_PLACES;
         // 1e-12: rounding of coefficients of some hundreds.
         let is = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
@@ -162,8 +147,8 @@ mod tests {
             for (i, &node) in nodes.iter().enumerate() {
                 assert!(is(value(polynomial, node), f64::from(u8::from(i == j))));
             }
-            for (check, values) in checks.iter().zip(LAGRANGE_AT_CHECKS) {
-                assert!(is(value(polynomial, *check), values[j]));
+            for (check, at_check) in checks.iter().zip(LAGRANGE_AT_CHECKS[j]) {
+                assert!(is(value(polynomial, *check), at_check));
             }
         }
         for (j, polynomial) in BUBBLES.iter().enumerate() {
@@ -178,19 +163,24 @@ mod tests {
 
     #[test]
     fn interpolation_at_the_checks_is_exact_for_polynomials_of_degree_seven() {
-        let nodes = [0.0, PLACES[0], PLACES[1], PLACES[2]];
+        let nodes = PLACES;
         let polynomial = [0.7, -1.0, 0.5, 2.0, -3.0, 1.5, 0.3, -0.8];
         let slope: Vec<f64> = (1..8).map(|k| k as f64 * polynomial[k]).collect();
-        let from = |[of_values, of_slopes]: [[f64; NODES]; 2]| -> f64 {
-            let terms = nodes.iter().zip(of_values.iter().zip(of_slopes));
+        let Hermite {
+            of_values,
+            of_slopes,
+        } = HERMITE_AT_CHECKS;
+        let from = |lane: usize| -> f64 {
+            let weights = of_values.iter().zip(&of_slopes);
+            let terms = nodes.iter().zip(weights);
             terms
-                .map(|(&node, (v, s))| v * value(&polynomial, node) + s * value(&slope, node))
+                .map(|(&x, (v, s))| v[lane] * value(&polynomial, x) + s[lane] * value(&slope, x))
                 .sum()
         };
-        for (place, hermite) in CHECK_PLACES.into_iter().zip(&HERMITE_AT_CHECKS) {
+        for (check, place) in CHECK_PLACES.into_iter().enumerate() {
             // 1e-13: rounding of weights up to 5.
-            assert!((from(hermite.value) - value(&polynomial, place)).abs() < 1e-13);
-            assert!((from(hermite.slope) - value(&slope, place)).abs() < 1e-13);
+            assert!((from(check) - value(&polynomial, place)).abs() < 1e-13);
+            assert!((from(CHECKS + check) - value(&slope, place)).abs() < 1e-13);
         }
     }
 }

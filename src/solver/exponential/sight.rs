@@ -2,29 +2,29 @@
 
 use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
-use super::polynomials::{END, HERMITE_AT_CHECKS, NODES, POINTS};
-use crate::linalg::dot;
+use super::lanes::{Quad, add_multiple};
+use super::polynomials::{CHECKS, END, HERMITE_AT_CHECKS, Hermite, NODES};
 
-/// How far the deflection of one coupling has moved from the start at all points of a step, then its rate.
-pub(super) type Readings = [f64; 2 * POINTS];
+/// How far the deflection of one coupling has moved from the start at every node of a step, then its rate.
+pub(super) type Readings = [Quad; 2];
+/// Nothing has moved.
+pub(super) const STILL: Readings = [[0.0; 4]; 2];
 
 /// One entry per coupling in every list.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
-    /// Deflections and rates at the start of the step.
-    pub(super) start: [Vec<f64>; 2],
     /// Movements without the forces.
     pub(super) free: Vec<Readings>,
     /// Movements.
     moved: Vec<Readings>,
-    /// Deflections and rates at the points, as laws look at them.
-    pub(super) points: [[Vec<f64>; 2]; POINTS],
+    /// Deflections and rates at the nodes, as laws look at them: the start is known, the others when they are shown.
+    pub(super) nodes: [[Vec<f64>; 2]; NODES],
     /// Deflections and rates elsewhere.
     pub(super) trial: [Vec<f64>; 2],
     /// How deflections and rates at the end would change with what the cubics leave out of the forces.
     pub(super) drift: Vec<[f64; 2]>,
     /// Forces at the nodes.
-    pub(super) forces: Vec<[f64; NODES]>,
+    pub(super) forces: Vec<Quad>,
     /// Forces at one instant.
     pub(super) present: Vec<f64>,
 }
@@ -32,12 +32,11 @@ pub(super) struct Sight {
 impl Sight {
     pub(super) fn new(couplings: usize) -> Sight {
         let pair = || [vec![0.0; couplings], vec![0.0; couplings]];
-        let readings = vec![[0.0; 2 * POINTS]; couplings];
+        let readings = vec![STILL; couplings];
         Sight {
-            start: pair(),
             free: readings.clone(),
             moved: readings,
-            points: core::array::from_fn(|_| pair()),
+            nodes: core::array::from_fn(|_| pair()),
             trial: pair(),
             drift: vec![[0.0; 2]; couplings],
             forces: vec![[0.0; NODES]; couplings],
@@ -45,85 +44,123 @@ impl Sight {
         }
     }
 
-    /// Nothing has moved yet at any point.
-    pub(super) fn stand_still(&mut self) {
-        self.free.fill([0.0; 2 * POINTS]);
+    /// How far couplings move under the present forces.
+    #[inline(always)]
+    pub(super) fn exert(&mut self, exchange: &Exchange, influences: &Influences) {
+        for (coupling, moved) in self.moved.iter_mut().enumerate() {
+            let mut readings = self.free[coupling];
+            let range = exchange.pairs_of(coupling);
+            let pairs = exchange.pairs[range.clone()].iter();
+            for (pair, influence) in pairs.zip(&influences.of_pairs[range]) {
+                for (force, row) in self.forces[pair.actuator].iter().zip(influence) {
+                    accumulate(&mut readings, -force, row);
+                }
+            }
+            *moved = readings;
+        }
     }
 
-    /// Deflections and rates at all points under the present forces.
-    pub(super) fn look(&mut self, exchange: &Exchange, influences: &Influences) {
-        self.moved.copy_from_slice(&self.free);
-        exchange.exert(influences, &self.forces, &mut self.moved);
-        for (point, place) in self.points.iter_mut().enumerate() {
-            for (what, (values, start)) in place.iter_mut().zip(&self.start).enumerate() {
-                let values = values.iter_mut().zip(start).zip(&self.moved);
-                for ((value, start), moved) in values {
-                    *value = start + moved[what * POINTS + point];
+    /// Shows the nodes as couplings have moved to them.
+    pub(super) fn show(&mut self) {
+        let [start, others @ ..] = &mut self.nodes;
+        for (coupling, moved) in self.moved.iter().enumerate() {
+            for (what, [_, moved @ ..]) in moved.iter().enumerate() {
+                let start = start[what][coupling];
+                for (node, moved) in others.iter_mut().zip(moved) {
+                    node[what][coupling] = start + moved;
                 }
             }
         }
     }
 
-    /// How far the deflection of a coupling has moved at a point, without the rounding of large deflections.
-    pub(super) fn moved(&self, coupling: usize, point: usize) -> f64 {
-        self.moved[coupling][point]
+    /// Deflection and rate of a coupling at the start.
+    #[inline(always)]
+    pub(super) fn start(&self, coupling: usize) -> [f64; 2] {
+        let [deflection, rate] = &self.nodes[0];
+        [deflection[coupling], rate[coupling]]
     }
 
-    /// Deflection and rate of a coupling at a place for comparison, in a step of this length.
-    pub(super) fn at_check(&self, check: usize, coupling: usize, step: f64) -> [f64; 2] {
-        let [d0, v0] = [0, 1].map(|what| self.start[what][coupling]);
-        let [d1, d2, d3, v1, v2, v3] = self.moved[coupling];
-        let slopes = [v0, v0 + v1, v0 + v2, v0 + v3];
-        let hermite = &HERMITE_AT_CHECKS[check];
-        // Movements, because slopes are differences: the start has not moved.
-        let along = |[of_values, of_slopes]: &[[f64; NODES]; 2], per_slope: f64| {
-            let values = of_values[1] * d1 + of_values[2] * d2 + of_values[3] * d3;
-            values + per_slope * dot(of_slopes, &slopes)
-        };
+    /// How far the deflection of a coupling has moved at a node, without the rounding of large deflections.
+    pub(super) fn moved(&self, coupling: usize, node: usize) -> f64 {
+        self.moved[coupling][0][node]
+    }
+
+    /// Deflections of a coupling at both places for comparison, then its rates, in a step of this length.
+    #[inline(always)]
+    pub(super) fn at_checks(&self, coupling: usize, step: f64) -> [[f64; CHECKS]; 2] {
+        let [d0, v0] = self.start(coupling);
+        let Hermite {
+            of_values,
+            of_slopes,
+        } = &HERMITE_AT_CHECKS;
+        let [deflections, rates] = &self.moved[coupling];
+        // Movements, because slopes are differences.
+        let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
+        for node in 0..NODES {
+            add_multiple(&mut values, deflections[node], &of_values[node]);
+            add_multiple(&mut slopes, v0 + rates[node], &of_slopes[node]);
+        }
+        let per_step = 1.0 / step;
         [
-            d0 + along(&hermite.value, step),
-            along(&hermite.slope, step) / step,
+            [0, 1].map(|i| d0 + (values[i] + step * slopes[i])),
+            [2, 3].map(|i| values[i] * per_step + slopes[i]),
         ]
     }
 
     /// The step ends: the end becomes the start.
     pub(super) fn move_on(&mut self) {
-        copy(&self.points[END], &mut self.start);
+        let [deflections, rates] = &mut self.nodes[0];
+        let both = deflections.iter_mut().zip(rates).zip(&self.moved);
+        for ((deflection, rate), moved) in both {
+            *deflection += moved[0][END];
+            *rate += moved[1][END];
+        }
         for forces in &mut self.forces {
-            forces[0] = forces[NODES - 1];
+            forces[0] = forces[END];
         }
     }
 
     /// Mean over the step of the square of what a monitor watches, by the Lobatto weights 1/12, 5/12, 5/12, 1/12.
     pub(super) fn mean_square(&self, monitor: &Monitor) -> f64 {
-        let mean = |[first, second, third, last]: [f64; NODES]| {
+        let mean = |[first, second, third, last]: Quad| {
             (first * first + last * last + 5.0 * (second * second + third * third)) / 12.0
         };
-        let [second, third, last] = [0, 1, END].map(|point| &self.points[point][0]);
-        let of_motion = |i: usize| mean([self.start[0][i], second[i], third[i], last[i]]);
+        let of_motion = |i: usize| {
+            let start = self.nodes[0][0][i];
+            mean(self.moved[i][0].map(|moved| start + moved))
+        };
         let forces = self.forces[monitor.couplings.clone()].iter();
         forces.map(|&forces| mean(forces)).sum::<f64>()
             + monitor.motion.clone().map(of_motion).sum::<f64>()
     }
 }
 
-/// readings += rows' values: one row per value, an even number of them.
+/// readings += value row.
 #[inline(always)]
-pub(super) fn accumulate(readings: &mut Readings, rows: &[Readings], values: &[f64]) {
-    // Two sums side by side, so that one addition need not wait for the last.
-    let (mut even, mut odd) = (*readings, [0.0; 2 * POINTS]);
-    for (rows, values) in rows.chunks_exact(2).zip(values.chunks_exact(2)) {
-        for i in 0..2 * POINTS {
-            even[i] += values[0] * rows[0][i];
-            odd[i] += values[1] * rows[1][i];
-        }
+pub(super) fn accumulate(readings: &mut Readings, value: f64, row: &Readings) {
+    for (sum, part) in readings.iter_mut().zip(row) {
+        add_multiple(sum, value, part);
     }
-    for i in 0..2 * POINTS {
-        readings[i] = even[i] + odd[i];
+}
+
+/// readings += rows' values: one row per value.
+#[inline(always)]
+pub(super) fn accumulate_all(readings: &mut Readings, rows: &[Readings], values: &[Quad]) {
+    // Two sums side by side, so that one addition need not wait for the last.
+    let (mut even, mut odd) = (*readings, STILL);
+    for (rows, values) in rows.as_chunks::<4>().0.iter().zip(values) {
+        accumulate(&mut even, values[0], &rows[0]);
+        accumulate(&mut odd, values[1], &rows[1]);
+        accumulate(&mut even, values[2], &rows[2]);
+        accumulate(&mut odd, values[3], &rows[3]);
+    }
+    for ((readings, even), odd) in readings.iter_mut().zip(&even).zip(&odd) {
+        *readings = core::array::from_fn(|i| even[i] + odd[i]);
     }
 }
 
 /// Deflection and rate of a sensor in these states.
+#[inline(always)]
 pub(super) fn both(rows: &[[f64; 2]], states: &[f64]) -> [f64; 2] {
     let mut seen = [0.0; 2];
     for (row, state) in rows.iter().zip(states) {
@@ -131,13 +168,6 @@ pub(super) fn both(rows: &[[f64; 2]], states: &[f64]) -> [f64; 2] {
         seen[1] += row[1] * state;
     }
     seen
-}
-
-/// Copies deflections and rates.
-pub(super) fn copy(source: &[Vec<f64>; 2], target: &mut [Vec<f64>; 2]) {
-    for (target, source) in target.iter_mut().zip(source) {
-        target.copy_from_slice(source);
-    }
 }
 
 /// Deflections and rates as the laws see them.

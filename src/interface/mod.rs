@@ -13,7 +13,7 @@ mod table;
 mod unit;
 
 use crate::config::Config;
-use crate::model::{Change, Inputs, ModalModel, Motion};
+use crate::model::{Change, ModalModel, Motion, Place};
 use crate::train::{GearAddress, GearTrain};
 
 pub use coupling::{Contact, Link, contacts_by_name, links};
@@ -161,6 +161,7 @@ impl Interface {
 
 impl Variable {
     /// The variable's causality.
+    #[inline]
     pub fn causality(&self) -> Causality {
         match self.quantity {
             Quantity::Torque { .. }
@@ -179,26 +180,24 @@ impl Variable {
 
 impl Quantity {
     /// The place of an input among the inputs; `None` for everything else.
-    pub fn input(self, inputs: &mut Inputs) -> Option<&mut f64> {
-        match self {
-            Quantity::Torque { torque } => inputs.torques.get_mut(torque),
-            Quantity::BaseDisplacement { bearing, axis } => inputs
-                .bases
-                .get_mut(bearing)
-                .map(|base| &mut base.displacement[axis]),
-            Quantity::BaseVelocity { bearing, axis } => inputs
-                .bases
-                .get_mut(bearing)
-                .map(|base| &mut base.velocity[axis]),
-            Quantity::PointForce { force, axis } => {
-                inputs.forces.get_mut(force).map(|force| &mut force[axis])
+    pub fn place(self) -> Option<Place> {
+        let number = |index: usize| u32::try_from(index).ok();
+        let axis_of = |axis: usize| u8::try_from(axis).ok();
+        Some(match self {
+            Quantity::Torque { torque } => Place::Torque(number(torque)?),
+            Quantity::BaseDisplacement { bearing, axis } => {
+                Place::Displacement(number(bearing)?, axis_of(axis)?)
             }
-            _ => None,
-        }
+            Quantity::BaseVelocity { bearing, axis } => {
+                Place::Velocity(number(bearing)?, axis_of(axis)?)
+            }
+            Quantity::PointForce { force, axis } => Place::Force(number(force)?, axis_of(axis)?),
+            _ => return None,
+        })
     }
 
     /// The value of everything that follows from model, state and inputs. Inputs have their place in
-    /// [`Quantity::input`], parameters and speeds derived from them in the configuration: they give NaN here.
+    /// [`Quantity::place`], parameters and speeds derived from them in the configuration: they give NaN here.
     pub fn evaluate(self, motion: &Motion<'_>) -> f64 {
         let rotors = &motion.model.rotors;
         match self {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Bearing, Housing, ModalModel, Rotor};
 use crate::config::{GearboxVibration, Planar};
-use crate::solver::{Harmonic, Ramp, Row};
+use crate::solver::{Harmonic, Ramp, Row, State};
 
 /// Everything a master sets while the simulation runs, or how it changes per second.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,19 @@ pub struct BaseMotion {
     pub velocity: [f64; 2],
 }
 
+/// One of the inputs: which torque, or which bearing or force and along which axis, of which 0 is x.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A torque.
+    Torque(u32),
+    /// A displacement of the gearbox.
+    Displacement(u32, u8),
+    /// A velocity of the gearbox.
+    Velocity(u32, u8),
+    /// A force on the housing.
+    Force(u32, u8),
+}
+
 /// The inputs while a call lasts: first + (t - since) rate.
 #[derive(Debug, Clone, Copy)]
 pub struct Course<'a> {
@@ -49,17 +62,36 @@ pub struct Course<'a> {
 #[derive(Debug, Clone)]
 pub(super) struct SupportVibration {
     amplitude: [f64; 2],
-    phase: [f64; 2],
+    /// Cosine and sine of the phases.
+    phase: [[f64; 2]; 2],
     /// Circular frequency [rad/s].
     frequency: f64,
 }
 
 impl Inputs {
+    /// The input at a place, to be changed.
+    #[inline]
+    pub fn at_mut(&mut self, place: Place) -> Option<&mut f64> {
+        let (bases, forces) = (&mut self.bases, &mut self.forces);
+        match place {
+            Place::Torque(number) => self.torques.get_mut(number as usize),
+            Place::Displacement(bearing, axis) => {
+                let base = bases.get_mut(bearing as usize)?;
+                base.displacement.get_mut(usize::from(axis))
+            }
+            Place::Velocity(bearing, axis) => {
+                let base = bases.get_mut(bearing as usize)?;
+                base.velocity.get_mut(usize::from(axis))
+            }
+            Place::Force(force, axis) => forces.get_mut(force as usize)?.get_mut(usize::from(axis)),
+        }
+    }
+
     /// Takes over the values of others of the same shape; allocates nothing.
     pub fn overwrite(&mut self, others: &Inputs) {
-        self.torques.clone_from(&others.torques);
-        self.bases.clone_from(&others.bases);
-        self.forces.clone_from(&others.forces);
+        self.torques.copy_from_slice(&others.torques);
+        self.bases.copy_from_slice(&others.bases);
+        self.forces.copy_from_slice(&others.forces);
     }
 
     /// Adds what changes in `elapsed` seconds.
@@ -207,6 +239,12 @@ impl Bearing {
     }
 }
 
+/// Cosine and sine of an angle.
+fn turned(angle: f64) -> [f64; 2] {
+    let (sine, cosine) = libm::sincos(angle);
+    [cosine, sine]
+}
+
 /// K u or C u'.
 pub(super) fn product(matrix: &Planar, motion: [f64; 2]) -> [f64; 2] {
     matrix
@@ -218,7 +256,7 @@ impl SupportVibration {
     pub(super) fn new(vibration: &GearboxVibration) -> SupportVibration {
         SupportVibration {
             amplitude: [vibration.amplitude_x, vibration.amplitude_y],
-            phase: [0.0, vibration.phase_y],
+            phase: [0.0, vibration.phase_y].map(turned),
             frequency: TAU * vibration.frequency,
         }
     }
@@ -228,24 +266,34 @@ impl SupportVibration {
         if self.amplitude == [0.0, 0.0] {
             return BaseMotion::default();
         }
-        let angle = self.frequency * time;
-        self.at_angles(self.phase.map(|phase| angle + phase))
+        self.at(turned(self.frequency * time))
+    }
+
+    /// Motion of every support in a state; of the harmonics it is the last one.
+    pub(super) fn in_state(&self, state: &State, harmonics: &[Harmonic]) -> BaseMotion {
+        let last = harmonics.len().wrapping_sub(1);
+        match state.turned(last) {
+            Some(angle) if self.amplitude != [0.0, 0.0] => self.at(angle),
+            _ => self.motion(state.time),
+        }
     }
 
     /// Rate of that motion at `time`: velocity and acceleration.
     pub(super) fn rate(&self, time: f64) -> BaseMotion {
+        if self.amplitude == [0.0, 0.0] {
+            return BaseMotion::default();
+        }
         // A quarter turn ahead, times the circular frequency.
-        let angle = self.frequency * time + TAU / 4.0;
-        self.at_angles(self.phase.map(|phase| angle + phase))
-            .times(self.frequency)
+        let [cosine, sine] = turned(self.frequency * time);
+        self.at([-sine, cosine]).times(self.frequency)
     }
 
-    fn at_angles(&self, angles: [f64; 2]) -> BaseMotion {
+    /// Motion where w t has this cosine and sine.
+    pub(super) fn at(&self, [cosine, sine]: [f64; 2]) -> BaseMotion {
         let mut motion = BaseMotion::default();
-        for (axis, angle) in angles.into_iter().enumerate() {
-            let (sine, cosine) = libm::sincos(angle);
-            motion.displacement[axis] = self.amplitude[axis] * sine;
-            motion.velocity[axis] = self.amplitude[axis] * self.frequency * cosine;
+        for (axis, [c, s]) in self.phase.into_iter().enumerate() {
+            motion.displacement[axis] = self.amplitude[axis] * (sine * c + cosine * s);
+            motion.velocity[axis] = self.amplitude[axis] * self.frequency * (cosine * c - sine * s);
         }
         motion
     }
@@ -255,9 +303,9 @@ impl SupportVibration {
         if self.amplitude == [0.0, 0.0] {
             return None;
         }
-        let load_at = |angle: f64| {
+        let load_at = |turned: [f64; 2]| {
             let mut load = vec![0.0; size];
-            let motion = self.at_angles(self.phase.map(|phase| angle + phase));
+            let motion = self.at(turned);
             let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
             for bearing in bearings.filter(|bearing| !bearing.follows_speed) {
                 bearing.base_load(&motion, &mut load);
@@ -267,8 +315,8 @@ impl SupportVibration {
         Some(Harmonic {
             frequency: self.frequency,
             phase: 0.0,
-            cosine: load_at(0.0),
-            sine: load_at(TAU / 4.0),
+            cosine: load_at([1.0, 0.0]),
+            sine: load_at([0.0, 1.0]),
             offset: 0,
         })
     }

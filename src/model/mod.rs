@@ -43,7 +43,7 @@ pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
 pub use housing::{Housing, Mode, Point};
-pub use inputs::{BaseMotion, Course, Inputs};
+pub use inputs::{BaseMotion, Course, Inputs, Place};
 pub use layout::Coordinates;
 pub use motion::Motion;
 pub use radial::RadialBearing;

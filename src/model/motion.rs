@@ -164,8 +164,13 @@ impl Motion<'_> {
             displacement: rows.map(|row| self.displacement(row)),
             velocity: rows.map(|row| self.velocity(row)),
         };
-        let vibration = self.model.vibration.motion(self.state.time);
-        let gearbox = self.inputs.bases[input].plus(&vibration);
-        shaft.plus(&gearbox.times(-1.0))
+        shaft.plus(&self.gearbox(input).times(-1.0))
+    }
+
+    /// Motion of the gearbox at a bearing.
+    fn gearbox(&self, input: usize) -> BaseMotion {
+        let model = self.model;
+        let vibration = model.vibration.in_state(self.state, &model.harmonics);
+        self.inputs.bases[input].plus(&vibration)
     }
 }

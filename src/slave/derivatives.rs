@@ -4,7 +4,7 @@ use super::{Error, LifeCycle, Slave};
 use crate::interface::{
     Causality, INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER, Quantity, Variable,
 };
-use crate::model::{Change, Inputs};
+use crate::model::{Change, Inputs, Place};
 
 impl Slave {
     /// fmi2GetDirectionalDerivative: overwrites `result`, one number per unknown. In initialization mode the static
@@ -25,7 +25,7 @@ impl Slave {
             if !seed.is_finite() {
                 return Err(Error::new(format!("the seed must be finite, found {seed}")));
             }
-            if let Some(input) = known.input(&mut direction) {
+            if let Some(input) = direction.at_mut(*known) {
                 *input += seed;
             }
         }
@@ -99,7 +99,7 @@ impl Slave {
         }
         let mut rate = self.rate.take().unwrap_or_else(|| self.no_inputs());
         for (input, &value) in inputs.iter().zip(values) {
-            if let Some(rate) = input.input(&mut rate) {
+            if let Some(rate) = rate.at_mut(*input) {
                 *rate = value;
             }
         }
@@ -107,12 +107,13 @@ impl Slave {
         Ok(())
     }
 
-    /// What inputs stand for.
-    fn inputs_among(&self, references: &[u32]) -> Result<Vec<Quantity>, Error> {
-        self.quantities(references, |variable| match variable.causality() {
+    /// The places of inputs.
+    fn inputs_among(&self, references: &[u32]) -> Result<Vec<Place>, Error> {
+        let quantities = self.quantities(references, |variable| match variable.causality() {
             Causality::Input => None,
             _ => Some("is no input"),
-        })
+        })?;
+        Ok(quantities.into_iter().filter_map(Quantity::place).collect())
     }
 
     /// What variables stand for; `refuse` says what is wrong with one.

@@ -3,7 +3,7 @@
 use super::Error;
 use crate::config::{Config, Problem};
 use crate::interface::{Interface, Parameter, Quantity, Variable};
-use crate::model::{Inputs, ModalModel};
+use crate::model::{Inputs, ModalModel, Place};
 use crate::rotor::ModeCounts;
 use crate::train::{SpeedRatio, speed_ratios, validate};
 
@@ -12,6 +12,8 @@ use crate::train::{SpeedRatio, speed_ratios, validate};
 pub(super) struct Design {
     pub(super) config: Config,
     pub(super) interface: Interface,
+    /// The places of all variables that are inputs.
+    places: Vec<Option<Place>>,
     pub(super) guid: String,
     /// Kept when parameters change, because the variables of the modes are fixed.
     pub(super) mode_counts: Vec<ModeCounts>,
@@ -28,6 +30,11 @@ impl Design {
         let interface = Interface::of(&config, &train, &model);
         Ok(Design {
             guid: interface.fingerprint(&config),
+            places: interface
+                .variables
+                .iter()
+                .map(|variable| variable.quantity.place())
+                .collect(),
             mode_counts: model.counts(),
             ratios: speed_ratios(&train),
             torques: train
@@ -42,13 +49,17 @@ impl Design {
         })
     }
 
+    #[inline]
     pub(super) fn variable(&self, reference: u32) -> Result<&Variable, Error> {
         let index = usize::try_from(reference).unwrap_or(usize::MAX);
-        self.interface.variables.get(index).ok_or_else(|| {
-            Error::new(format!(
-                "value reference {reference} is unknown to this FMU"
-            ))
-        })
+        let variables = self.interface.variables.as_slice();
+        variables.get(index).ok_or_else(|| unknown(reference))
+    }
+
+    /// The place of an input; `None` for everything else.
+    #[inline]
+    pub(super) fn input(&self, reference: u32) -> Option<Place> {
+        *self.places.get(usize::try_from(reference).ok()?)?
     }
 
     /// These torques, and nothing else from outside.
@@ -95,6 +106,13 @@ impl Design {
         ModalModel::assemble(&train, Some(&self.mode_counts))
             .map_err(|error| Error::new(error.to_string()))
     }
+}
+
+#[cold]
+fn unknown(reference: u32) -> Error {
+    Error::new(format!(
+        "value reference {reference} is unknown to this FMU"
+    ))
 }
 
 fn joined(problems: &[Problem]) -> Error {

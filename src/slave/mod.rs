@@ -15,11 +15,11 @@ mod derivatives;
 mod design;
 mod error;
 mod saved;
+mod values;
 
 use serde::{Deserialize, Serialize};
 
 use crate::config::{self, Config};
-use crate::interface::{Causality, Parameter, Quantity};
 use crate::model::Inputs;
 use crate::simulation::Simulation;
 
@@ -173,56 +173,6 @@ impl Slave {
         self.simulation = None;
     }
 
-    /// fmi2GetReal: overwrites `values`, one per reference. Parameters and inputs are readable from the
-    /// start, everything else from initialization on.
-    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
-        for &reference in references {
-            self.design.variable(reference)?;
-        }
-        // Both components of a bearing's force follow from the same motion, and masters read them one after the other.
-        let mut latest: Option<(usize, [f64; 2])> = None;
-        for (&reference, value) in references.iter().zip(values) {
-            let quantity = self.design.variable(reference)?.quantity;
-            *value = match (quantity, latest) {
-                (Quantity::BearingForce { input, axis, .. }, Some((known, force)))
-                    if input == known =>
-                {
-                    force[axis]
-                }
-                (Quantity::BearingForce { input, axis, .. }, _)
-                    if self.life_cycle == LifeCycle::Stepping =>
-                {
-                    let force = quantity.bearing_force(&self.started()?.motion());
-                    latest = Some((input, force));
-                    force[axis]
-                }
-                _ => self.read(reference)?,
-            };
-        }
-        Ok(())
-    }
-
-    /// fmi2SetReal: all or nothing.
-    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
-        for (&reference, &value) in references.iter().zip(values) {
-            self.check_settable(reference, value)?;
-        }
-        for (&reference, &value) in references.iter().zip(values) {
-            self.write(reference, value)?;
-        }
-        Ok(())
-    }
-
-    /// Refuses references of a base type that has no variables here.
-    pub fn no_variables_of_type(&self, base_type: &str, references: &[u32]) -> Result<(), Error> {
-        match references.first() {
-            None => Ok(()),
-            Some(reference) => Err(Error::new(format!(
-                "value reference {reference} is unknown: this FMU has no {base_type} variables"
-            ))),
-        }
-    }
-
     /// fmi2DoStep: from the communication point `time` to exactly `time + step`. Input derivatives hold for this step.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Error> {
         let Some(simulation) = &mut self.simulation else {
@@ -281,71 +231,6 @@ impl Slave {
     /// End of the last successful step [s].
     pub fn last_successful_time(&self) -> f64 {
         self.simulation.as_ref().map_or(0.0, Simulation::time)
-    }
-
-    fn read(&mut self, reference: u32) -> Result<f64, Error> {
-        let quantity = self.design.variable(reference)?.quantity;
-        if let Some(input) = quantity.input(&mut self.inputs) {
-            return Ok(*input);
-        }
-        match quantity {
-            Quantity::Parameter(parameter) => Ok(*parameter.slot(&mut self.config)),
-            Quantity::DerivedSpeed { rotor, .. } => Ok(self.config.rotors[rotor].speed),
-            _ if self.life_cycle == LifeCycle::Instantiated => {
-                let name = &self.design.variable(reference)?.name;
-                Err(Error::new(format!(
-                    "{name} can be read from initialization mode on"
-                )))
-            }
-            _ => Ok(quantity.evaluate(&self.started()?.motion())),
-        }
-    }
-
-    fn check_settable(&self, reference: u32, value: f64) -> Result<(), Error> {
-        let variable = self.design.variable(reference)?;
-        let name = &variable.name;
-        match variable.causality() {
-            Causality::Input => {}
-            Causality::Parameter if self.life_cycle != LifeCycle::Stepping => {}
-            Causality::Parameter => {
-                return Err(Error::new(format!(
-                    "parameter {name} can only be set until initialization ends"
-                )));
-            }
-            _ => {
-                return Err(Error::new(format!(
-                    "{name} is neither an input nor a parameter and cannot be set"
-                )));
-            }
-        }
-        if !value.is_finite() {
-            return Err(Error::new(format!(
-                "{name} must be a finite number, found {value}"
-            )));
-        }
-        Ok(())
-    }
-
-    fn write(&mut self, reference: u32, value: f64) -> Result<(), Error> {
-        match self.design.variable(reference)?.quantity {
-            Quantity::Parameter(parameter) => {
-                self.design.write(&mut self.config, parameter, value);
-                self.tolerance_set |= parameter == Parameter::Tolerance;
-                self.simulation = None;
-            }
-            quantity => {
-                if self.life_cycle != LifeCycle::Stepping {
-                    self.simulation = None; // the equilibrium depends on the inputs
-                }
-                let running = self.simulation.as_mut().map(Simulation::inputs_mut);
-                for inputs in running.into_iter().chain([&mut self.inputs]) {
-                    if let Some(input) = quantity.input(inputs) {
-                        *input = value;
-                    }
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The simulation under the present parameters and inputs, started if need be.

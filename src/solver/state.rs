@@ -36,6 +36,11 @@ pub(super) struct Track {
 }
 
 impl State {
+    /// Cosine and sine of the angle of a harmonic at the state's time, where the solver has them.
+    pub fn turned(&self, harmonic: usize) -> Option<[f64; 2]> {
+        self.turning.at(harmonic)
+    }
+
     /// Whether another state has the same shape and consists of finite numbers.
     pub fn is_like(&self, other: &State) -> bool {
         let lengths = |state: &State| {

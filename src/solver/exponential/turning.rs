@@ -60,6 +60,12 @@ impl Turning {
         self.turns += 1;
     }
 
+    /// Cosine and sine of a harmonic's angle at the state's time; `None` before the first step.
+    pub(in super::super) fn at(&self, harmonic: usize) -> Option<[f64; 2]> {
+        let angle = self.angles.get(harmonic).copied();
+        angle.filter(|angle| *angle != [0.0; 2])
+    }
+
     /// Whether another one has as many, and all of them are numbers.
     pub(in super::super) fn is_like(&self, other: &Turning) -> bool {
         self.angles.len() == other.angles.len()

@@ -14,12 +14,13 @@ use nalgebra::Complex;
 
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
-use super::lanes::Quad;
+use super::lanes::{Quad, add_multiple, subtract_multiple};
 use super::panel::{Panels, Place};
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
+use super::scratch::{Scratch, Share};
 use super::sight::{Readings, STILL, both};
-use crate::linalg::{Group, Line, PHI_ORDERS, PhiFunctions, dot};
+use crate::linalg::PHI_ORDERS;
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
@@ -42,53 +43,8 @@ pub(super) struct Coefficients {
     pub(super) influences: Influences,
 }
 
-/// Room for computing coefficients.
-#[derive(Debug, Clone)]
-pub(super) struct Scratch {
-    phi: PhiFunctions,
-    /// m_k of every actuator, len each.
-    moments: Vec<[f64; POWERS]>,
-    /// The response to every harmonic of a part, len each.
-    responses: Vec<Complex<f64>>,
-    /// e^(i w x h) of all harmonics.
-    turned: Vec<Complex<f64>>,
-}
-
-/// A node of the step: its number and x.
-type Spot = (usize, f64);
-
-/// One group of a part at a place of a step.
-#[derive(Clone, Copy)]
-struct Share<'a> {
-    part: &'a Part,
-    group: &'a Group,
-    place: &'a Place,
-    node: Spot,
-    h: f64,
-}
-
-impl Scratch {
-    pub(super) fn new(parts: &[Part], harmonics: usize) -> Scratch {
-        let largest = |size: &dyn Fn(&Part) -> usize| parts.iter().map(size).max().unwrap_or(0);
-        let group = largest(&|part| {
-            let sizes = part.groups.iter().map(|group| group.matrix.nrows());
-            sizes.max().unwrap_or(0)
-        });
-        let still = Complex::new(0.0, 0.0);
-        Scratch {
-            phi: PhiFunctions::new(group),
-            moments: vec![[0.0; POWERS]; largest(&|part| part.len() * part.actuators.len())],
-            responses: vec![still; largest(&|part| part.len() * part.harmonics.len())],
-            turned: vec![still; harmonics],
-        }
-    }
-
-    /// Zeros for the states that stay zero.
-    fn clear(&mut self, part: &Part) {
-        self.moments[..part.len() * part.actuators.len()].fill([0.0; POWERS]);
-        self.responses[..part.len() * part.harmonics.len()].fill(Complex::new(0.0, 0.0));
-    }
-}
+/// A function of a group of one or two states at the nodes: levels and slopes.
+type Lines = [Quad; 2];
 
 impl Coefficients {
     /// Room for the coefficients of these parts under so many harmonics.
@@ -126,6 +82,7 @@ impl Coefficients {
     }
 
     /// Computes everything for steps of length h; `frequencies` are those of all harmonics [rad/s].
+    #[inline(always)]
     pub(super) fn compute(
         &mut self,
         (parts, panels, exchange): (&[Part], &Panels, &Exchange),
@@ -134,235 +91,227 @@ impl Coefficients {
         scratch: &mut Scratch,
     ) {
         self.influences.clear();
-        for (point, x) in PLACES.into_iter().enumerate().skip(1) {
-            let time = x * h;
-            for (turned, frequency) in scratch.turned.iter_mut().zip(frequencies) {
-                let (sine, cosine) = libm::sincos(frequency * time);
-                *turned = Complex::new(cosine, sine);
+        scratch.turn(frequencies, h);
+        self.rotations.copy_from_slice(&scratch.turned[END]);
+        let mut columns = 0;
+        for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
+            scratch.clear(part);
+            for group in &part.groups {
+                let share = Share {
+                    part,
+                    group,
+                    place,
+                    h,
+                };
+                self.follow(share, frequencies, scratch);
             }
-            if point == END {
-                self.rotations.copy_from_slice(&scratch.turned);
-            }
-            let mut columns = 0;
-            for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
-                self.compute_linear(part, place, h, (point, x), (frequencies, scratch));
-                if point == END {
-                    self.combine_columns(part, &mut columns, scratch);
-                }
-                let influences = &mut self.influences;
-                add_influences(part, number, point, (exchange, influences), scratch);
-                self.compute_turning(part, place, point, scratch);
-            }
+            let own = &mut self.columns[columns..][..part.columns() * part.quads().len()];
+            combine_columns(part, scratch, own);
+            columns += own.len();
+            add_influences(part, number, (exchange, &mut self.influences), scratch);
+            self.compute_turning(part, place, scratch);
         }
     }
 
-    /// At a point: the response without forces, the moments, and the responses to the harmonics.
-    fn compute_linear(
-        &mut self,
-        part: &Part,
-        place: &Place,
-        h: f64,
-        (point, x): Spot,
-        (frequencies, scratch): (&[f64], &mut Scratch),
-    ) {
-        scratch.clear(part);
-        for (group, matrix) in part.groups.iter().map(|group| (group, &group.matrix)) {
-            let share = Share {
-                part,
-                group,
-                place,
-                node: (point, x),
-                h,
-            };
-            match scratch.phi.evaluate_small(matrix, x * h) {
-                Some(lines) => self.follow_lines(share, &lines, scratch),
+    /// The responses and moments of a group at all nodes.
+    #[inline(always)]
+    fn follow(&mut self, share: Share<'_>, frequencies: &[f64], scratch: &mut Scratch) {
+        let matrix = &share.group.matrix;
+        let mut lines: [Lines; PHI_ORDERS] = Default::default();
+        for node in 1..NODES {
+            let time = PLACES[node] * share.h;
+            match scratch.phi.evaluate_small(matrix, time) {
+                Some(phi) => {
+                    for ([levels, slopes], phi) in lines.iter_mut().zip(phi) {
+                        (levels[node], slopes[node]) = (phi.level, phi.slope);
+                    }
+                }
                 None => {
-                    scratch.phi.evaluate(matrix, x * h);
-                    self.follow_block(share, scratch);
+                    scratch.phi.evaluate(matrix, time);
+                    self.follow_block(share, node, scratch);
                 }
             }
-            let (first, m) = (group.first, matrix.nrows());
-            for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
-                let driven = (frequencies[*harmonic], scratch.turned[*harmonic]);
-                let response = &mut scratch.responses[number * part.len() + first..][..m];
-                let load = &load[first..first + m];
-                let block = (matrix, x * h);
-                scratch
-                    .phi
-                    .oscillator_response(block, driven, load, response);
-            }
+            scratch.respond(share, frequencies, node);
+        }
+        if matrix.nrows() <= 2 {
+            self.follow_lines(share, &lines, &mut scratch.moments);
         }
     }
 
     /// Responses and moments of a group of one or two states, whose phi_k are level + slope S.
-    fn follow_lines(&mut self, share: Share<'_>, phi: &[Line; PHI_ORDERS], scratch: &mut Scratch) {
+    #[inline(always)]
+    fn follow_lines(
+        &mut self,
+        share: Share<'_>,
+        phi: &[Lines; PHI_ORDERS],
+        moments: &mut [[Quad; POWERS]],
+    ) {
         let Share {
             part,
             group,
             place,
-            node: (point, x),
             h,
         } = share;
         let (states, own) = (part.len(), group.first..group.first + group.matrix.nrows());
-        let time = x * h;
+        let times = PLACES.map(|x| x * h);
+        let squares = times.map(|time| time * time);
         let responses = [
-            (time, phi[1], &mut self.gain, &mut self.free),
-            (time * time, phi[2], &mut self.ramp_gain, &mut self.ramp),
+            (times, phi[1], &mut self.gain, &mut self.free),
+            (squares, phi[2], &mut self.ramp_gain, &mut self.ramp),
         ];
-        for (factor, phi, gain, seen) in responses {
-            let (level, slope) = (factor * phi.level, factor * phi.slope);
-            if point == END {
-                gain.set_line(part, group, level, slope);
-            }
+        for (factors, phi, gain, seen) in responses {
+            let [level, slope] = phi.map(|part| times_each(&part, &factors));
+            gain.set_line(part, group, level[END], slope[END]);
             for sensor in 0..part.sensors.len() {
                 for state in own.clone() {
                     let readings = &mut seen[place.states(sensor) + state];
                     let state = sensor * states + state;
-                    let (rows, slopes) = (part.sensor_rows[state], part.sensor_slopes[state]);
-                    for (what, (row, along)) in rows.into_iter().zip(slopes).enumerate() {
-                        readings[what][point] = level * row + slope * along;
+                    let both = part.sensor_rows[state]
+                        .iter()
+                        .zip(part.sensor_slopes[state]);
+                    for (readings, (row, along)) in readings.iter_mut().zip(both) {
+                        *readings = combination(*row, &level, along, &slope);
                     }
                 }
             }
         }
-        let (factors, mut power) = (FACTORIAL, h);
-        let phi: [Line; POWERS] = core::array::from_fn(|k| {
-            power *= x;
-            let factor = factors[k] * power;
-            Line {
-                level: factor * phi[k + 1].level,
-                slope: factor * phi[k + 1].slope,
-            }
+        let (factors, mut power) = (FACTORIAL, [h; NODES]);
+        let phi: [Lines; POWERS] = core::array::from_fn(|k| {
+            power = times_each(&power, &PLACES);
+            let factor = power.map(|power| factors[k] * power);
+            phi[k + 1].map(|part| times_each(&part, &factor))
         });
         let columns = part.actuator_columns.as_slice();
         let slopes = part.actuator_slopes.as_slice();
         for actuator in 0..part.actuators.len() {
             for state in own.clone().map(|state| actuator * states + state) {
                 let (column, along) = (columns[state], slopes[state]);
-                for (moment, phi) in scratch.moments[state].iter_mut().zip(&phi) {
-                    *moment = phi.level * column + phi.slope * along;
+                for (moment, [level, slope]) in moments[state].iter_mut().zip(&phi) {
+                    *moment = combination(column, level, along, slope);
                 }
             }
         }
     }
 
-    /// Responses and moments of a larger group.
-    fn follow_block(&mut self, share: Share<'_>, scratch: &mut Scratch) {
+    /// Responses and moments of a larger group at a node.
+    fn follow_block(&mut self, share: Share<'_>, node: usize, scratch: &mut Scratch) {
         let Share {
             part,
             group,
             place,
-            node: (point, x),
             h,
         } = share;
         let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
-        let time = x * h;
+        let time = PLACES[node] * h;
         let responses = [
             (time, 1, &mut self.gain, &mut self.free),
             (time * time, 2, &mut self.ramp_gain, &mut self.ramp),
         ];
         for (factor, k, gain, seen) in responses {
             let phi = scratch.phi.get(k);
-            if point == END {
+            if node == END {
                 gain.set(part, group, factor, phi);
             }
             for sensor in 0..part.sensors.len() {
-                let start = sensor * states + first;
-                let rows = &part.sensor_rows[start..start + m];
+                let rows = &part.sensor_rows[sensor * states + first..][..m];
                 let own = &mut seen[place.states(sensor) + first..][..m];
                 for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
                     let [deflection, rate] = both(rows, phi);
-                    readings[0][point] = factor * deflection;
-                    readings[1][point] = factor * rate;
+                    readings[0][node] = factor * deflection;
+                    readings[1][node] = factor * rate;
                 }
             }
         }
         let mut power = h;
         for (k, factor) in FACTORIAL.into_iter().enumerate() {
-            power *= x;
+            power *= PLACES[node];
             let phi = scratch.phi.get(k + 1);
             for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
                 let own = &column.as_slice()[first..first + m];
                 let moments = &mut scratch.moments[actuator * states + first..][..m];
                 for (i, moment) in moments.iter_mut().enumerate() {
                     let terms = own.iter().enumerate().map(|(j, own)| phi[i + j * m] * own);
-                    moment[k] = factor * power * terms.sum::<f64>();
+                    moment[k][node] = factor * power * terms.sum::<f64>();
                 }
             }
         }
     }
 
-    /// The columns of the part, which begin at `begin`, from moments and responses at the end.
-    fn combine_columns(&mut self, part: &Part, begin: &mut usize, scratch: &Scratch) {
-        let (states, width) = (part.len(), part.columns());
-        let own = &mut self.columns[*begin..][..width * part.quads().len()];
-        *begin += own.len();
-        let turning = NODES * part.actuators.len();
-        for state in 0..states {
-            let (row, lane) = (&mut own[state / 4 * width..][..width], state % 4);
-            let (forces, angles) = row.split_at_mut(turning);
-            for (actuator, columns) in forces.chunks_exact_mut(NODES).enumerate() {
-                let moment = &scratch.moments[actuator * states + state];
-                for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
-                    column[lane] = -dot(l, &moment[..NODES]);
-                }
-            }
-            for (number, columns) in angles.chunks_exact_mut(2).enumerate() {
-                let response = scratch.responses[number * states + state];
-                (columns[0][lane], columns[1][lane]) = (response.re, -response.im);
-            }
-        }
-    }
-
-    /// The response to the harmonics at a point: Re of it times e^(i angle) at the start of the step.
-    fn compute_turning(&mut self, part: &Part, place: &Place, point: usize, scratch: &Scratch) {
+    /// The response to the harmonics: Re of it times e^(i angle) at the start of the step.
+    #[inline(always)]
+    fn compute_turning(&mut self, part: &Part, place: &Place, scratch: &Scratch) {
         let states = part.len();
         let responses = scratch.responses.chunks_exact(states.max(1));
         for (number, response) in responses.take(part.harmonics.len()).enumerate() {
             for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
-                let readings = &mut self.turning[place.harmonics(sensor) + number];
-                let mut seen = [Complex::new(0.0, 0.0); 2];
-                for (response, row) in response.iter().zip(rows) {
-                    seen[0] += response * row[0];
-                    seen[1] += response * row[1];
+                let (mut cosine, mut sine) = (STILL, STILL);
+                for ([re, im], row) in response.iter().zip(rows) {
+                    for (what, row) in row.iter().enumerate() {
+                        add_multiple(&mut cosine[what], *row, re);
+                        subtract_multiple(&mut sine[what], *row, im);
+                    }
                 }
-                for (what, seen) in seen.into_iter().enumerate() {
-                    readings[0][what][point] = seen.re;
-                    readings[1][what][point] = -seen.im;
-                }
+                self.turning[place.harmonics(sensor) + number] = [cosine, sine];
             }
         }
     }
 }
 
-/// Forces, through the moments, to what the sensors see at a point.
+/// The columns of a part, from moments and responses at the end.
+#[inline(always)]
+fn combine_columns(part: &Part, scratch: &Scratch, own: &mut [Quad]) {
+    let (states, width) = (part.len(), part.columns());
+    for state in 0..states {
+        let (row, lane) = (&mut own[state / 4 * width..][..width], state % 4);
+        let (forces, angles) = row.split_at_mut(NODES * part.actuators.len());
+        for (actuator, columns) in forces.chunks_exact_mut(NODES).enumerate() {
+            let moments = &scratch.moments[actuator * states + state];
+            for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
+                let terms = l.iter().zip(moments).map(|(l, moment)| l * moment[END]);
+                column[lane] = -terms.sum::<f64>();
+            }
+        }
+        for (number, columns) in angles.chunks_exact_mut(2).enumerate() {
+            let [re, im] = &scratch.responses[number * states + state];
+            (columns[0][lane], columns[1][lane]) = (re[END], -im[END]);
+        }
+    }
+}
+
+/// Forces, through the moments, to what the sensors see at the nodes.
+#[inline(always)]
 fn add_influences(
     part: &Part,
     number: usize,
-    point: usize,
     (exchange, influences): (&Exchange, &mut Influences),
     scratch: &Scratch,
 ) {
     let states = part.len();
     let moments = scratch.moments.chunks_exact(states.max(1));
     for (actuator, moments) in moments.take(part.actuators.len()).enumerate() {
-        for sensor in 0..part.sensors.len() {
-            let rows = &part.sensor_rows[sensor * states..][..states];
-            let mut seen = [[0.0; POWERS]; 2];
+        for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
+            let mut seen = [[[0.0; 4]; POWERS]; 2];
             for (row, moment) in rows.iter().zip(moments) {
                 for (seen, entry) in seen.iter_mut().zip(row) {
                     for (seen, moment) in seen.iter_mut().zip(moment) {
-                        *seen += entry * moment;
+                        add_multiple(seen, *entry, moment);
                     }
                 }
             }
             let entry = (number, actuator * part.sensors.len() + sensor);
-            for (what, seen) in seen.iter().enumerate() {
-                influences.add(exchange, entry, (point, what), seen);
-                if point == END {
-                    influences.add_bubbles(exchange, entry, what, seen);
-                }
-            }
+            influences.add(exchange, entry, &seen);
         }
     }
+}
+
+/// Element by element.
+#[inline(always)]
+fn times_each(one: &Quad, two: &Quad) -> Quad {
+    core::array::from_fn(|i| one[i] * two[i])
+}
+
+/// a x + b y.
+#[inline(always)]
+fn combination(a: f64, x: &Quad, b: f64, y: &Quad) -> Quad {
+    core::array::from_fn(|i| a * x[i] + b * y[i])
 }

@@ -10,8 +10,9 @@
 
 use core::ops::Range;
 
+use super::lanes::{Quad, add_multiple};
 use super::part::Part;
-use super::polynomials::{BUBBLES, CHECKS, LAGRANGE, NODES, POWERS};
+use super::polynomials::{BUBBLES, CHECKS, END, LAGRANGE, NODES, POWERS};
 use super::sight::{Readings, STILL};
 
 /// A coupling that sees and one that acts.
@@ -110,37 +111,28 @@ impl Influences {
         self.bubbles.fill([[0.0; CHECKS]; 2]);
     }
 
-    /// The influence of a pair of part number `part` grows by what the powers (s/h)^k of its force do at a point to the
-    /// deflection (`what` = 0) or rate (1).
+    /// The influence of a pair of part number `part` grows by what the powers (s/h)^k of its force do to deflection and rate at the
+    /// nodes.
+    #[inline(always)]
     pub(super) fn add(
         &mut self,
         exchange: &Exchange,
         (part, entry): (usize, usize),
-        (point, what): (usize, usize),
-        seen: &[f64; POWERS],
+        seen: &[[Quad; POWERS]; 2],
     ) {
         let pair = exchange.of_part[part][entry];
-        for (target, polynomial) in self.of_pairs[pair].iter_mut().zip(&LAGRANGE) {
-            target[what][point] += product(polynomial, seen);
+        for (readings, polynomial) in self.of_pairs[pair].iter_mut().zip(&LAGRANGE) {
+            for (reading, seen) in readings.iter_mut().zip(seen) {
+                for (coefficient, seen) in polynomial.iter().zip(seen) {
+                    add_multiple(reading, *coefficient, seen);
+                }
+            }
+        }
+        for (bubbles, seen) in self.bubbles[pair].iter_mut().zip(seen) {
+            for (bubble, polynomial) in bubbles.iter_mut().zip(&BUBBLES) {
+                let terms = polynomial.iter().zip(seen);
+                *bubble += terms.map(|(c, seen)| c * seen[END]).sum::<f64>();
+            }
         }
     }
-
-    /// The same for the bubbles at the end of the step.
-    pub(super) fn add_bubbles(
-        &mut self,
-        exchange: &Exchange,
-        (part, entry): (usize, usize),
-        what: usize,
-        seen: &[f64; POWERS],
-    ) {
-        let pair = exchange.of_part[part][entry];
-        for (target, polynomial) in self.bubbles[pair][what].iter_mut().zip(&BUBBLES) {
-            *target += product(polynomial, seen);
-        }
-    }
-}
-
-/// Sum of the products of the entries that both have.
-fn product(one: &[f64], two: &[f64]) -> f64 {
-    one.iter().zip(two).map(|(one, two)| one * two).sum()
 }

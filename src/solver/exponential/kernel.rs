@@ -5,7 +5,7 @@ use pulp::Arch;
 use super::super::grid::canonical;
 use super::super::march::{Ending, Method, Outcome, Span, Task};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
-use super::coefficients::{Coefficients, Scratch};
+use super::coefficients::Coefficients;
 use super::control::growth;
 use super::events::Sighting;
 use super::exchange::Exchange;
@@ -14,7 +14,8 @@ use super::motion::Motion;
 use super::nodes::{Nodes, accuracy};
 use super::panel::Panels;
 use super::part::{Part, take_apart};
-use super::passes::{LookAhead, Move, Observe, PutTogether, SolveLines, TakeLoads};
+use super::passes::{Compute, LookAhead, Move, Observe, PutTogether, SolveLines, TakeLoads};
+use super::scratch::Scratch;
 use super::sight::{Sight, instant};
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
@@ -170,9 +171,16 @@ impl Kernel {
         self.next_length = (index + 1) % self.lengths.len();
         *found = index as u8;
         self.counts.factorizations += 1;
-        let parts = (self.parts.as_slice(), &self.panels, &self.exchange);
         self.steps[index] = h;
-        self.lengths[index].compute(parts, h, &self.frequencies, &mut self.scratch);
+        self.arch.dispatch(Compute {
+            coefficients: &mut self.lengths[index],
+            parts: &self.parts,
+            panels: &self.panels,
+            exchange: &self.exchange,
+            step: h,
+            frequencies: &self.frequencies,
+            scratch: &mut self.scratch,
+        });
         index
     }
 

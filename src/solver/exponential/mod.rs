@@ -28,6 +28,7 @@ mod panel;
 mod part;
 mod passes;
 mod polynomials;
+mod scratch;
 mod sight;
 mod turning;
 

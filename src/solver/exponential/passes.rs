@@ -1,6 +1,7 @@
 //! The loops that run over all states.
 //!
 //! ```text
+//!   compute        the coefficients of a step length
 //!   take loads     load = sum of columns times inputs
 //!   observe        deflections and rates = rows eta
 //!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
@@ -19,11 +20,25 @@ use super::exchange::Exchange;
 use super::lanes::{Quad, add_product, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
-use super::panel::Panel;
+use super::panel::{Panel, Panels};
 use super::part::Part;
 use super::polynomials::NODES;
+use super::scratch::Scratch;
 use super::sight::{STILL, Sight, accumulate, accumulate_all};
 use super::turning::Turning;
+
+/// The coefficients of a step length.
+pub(super) struct Compute<'a> {
+    pub(super) coefficients: &'a mut Coefficients,
+    pub(super) parts: &'a [Part],
+    pub(super) panels: &'a Panels,
+    pub(super) exchange: &'a Exchange,
+    /// The length [s].
+    pub(super) step: f64,
+    /// Those of all harmonics [rad/s].
+    pub(super) frequencies: &'a [f64],
+    pub(super) scratch: &'a mut Scratch,
+}
 
 /// The loads of a call.
 pub(super) struct TakeLoads<'a> {
@@ -75,6 +90,17 @@ pub(super) struct PutTogether<'a> {
     pub(super) parts: &'a [Part],
     pub(super) motion: &'a mut Motion,
     pub(super) state: &'a mut State,
+}
+
+impl WithSimd for Compute<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let parts = (self.parts, self.panels, self.exchange);
+        self.coefficients
+            .compute(parts, self.step, self.frequencies, self.scratch);
+    }
 }
 
 impl WithSimd for TakeLoads<'_> {

@@ -106,11 +106,7 @@ impl Simulation {
 
     /// What the outside sees now.
     pub fn motion(&self) -> Motion<'_> {
-        Motion {
-            model: &self.model,
-            state: &self.state,
-            inputs: &self.inputs,
-        }
+        Motion::new(&self.model, &self.state, &self.inputs)
     }
 
     /// q'' under the inputs as they are now.
@@ -136,7 +132,7 @@ impl Simulation {
         match start {
             Start::Rest => Ok(vec![0.0; self.model.system.size]),
             Start::Equilibrium => {
-                equilibrium_change(&self.model, &self.inputs, &self.state.position, direction)
+                equilibrium_change(&self.model, &self.inputs, self.state.position(), direction)
             }
         }
     }

@@ -241,8 +241,8 @@ fn energy_stays_in_rotors_and_housing_together_over_a_hundred_mesh_periods() {
     let model = geartrain::model::ModalModel::assemble(&train, None).unwrap();
     let (stiffness, _) = model.mean_matrices();
     let energy = |run: &Run| {
-        let q = DVector::from_column_slice(&run.state.position);
-        let velocity = DVector::from_column_slice(&run.state.velocity);
+        let q = DVector::from_column_slice(run.state.position());
+        let velocity = DVector::from_column_slice(run.state.velocity());
         0.5 * velocity.norm_squared() + 0.5 * q.dot(&(&stiffness * &q))
     };
     let period = 1.0 / model.meshes[0].frequency();

@@ -43,7 +43,7 @@ fn approaching(text: &str, velocity: f64, solver: SolverChoice, tolerance: f64) 
 
 /// delta' of the reference flank.
 fn rate(run: &Run) -> f64 {
-    run.model.meshes[0].row.dot(&run.state.velocity)
+    run.model.meshes[0].row.dot(run.state.velocity())
 }
 
 #[test]
@@ -146,16 +146,16 @@ fn undamped_pair(backlash: f64) -> String {
 
 /// Kinetic energy, elastic energy of the blocks, and k d^2 / 2 of the flanks that are pressed.
 fn energy(run: &Run, k: f64, backlash: f64) -> f64 {
-    let velocity = DVector::from_column_slice(&run.state.velocity);
+    let velocity = DVector::from_column_slice(run.state.velocity());
     let mut sum = 0.5 * velocity.norm_squared();
     for block in &run.model.system.blocks {
-        let q = DVector::from_column_slice(&run.state.position[block.range()]);
+        let q = DVector::from_column_slice(&run.state.position()[block.range()]);
         sum += 0.5 * q.dot(&(&block.stiffness * &q));
     }
     let flanks = run.model.system.couplings.iter().zip([0.0, backlash]);
     for (flank, gap) in flanks {
         // Where the shafts bend towards each other, both flanks are pressed.
-        let depth = (flank.row.dot(&run.state.position) - gap).max(0.0);
+        let depth = (flank.row.dot(run.state.position()) - gap).max(0.0);
         sum += 0.5 * k * depth * depth;
     }
     sum
@@ -181,7 +181,7 @@ fn impacts_on_both_flanks_keep_energy_without_damping() {
             1e-9,
         );
         let state = loaded.motion().state.clone();
-        run.put(state.position, state.velocity);
+        run.put(state.position().to_vec(), state.velocity().to_vec());
         let before = energy(&run, k, backlash);
         let period = std::f64::consts::TAU / (24.0 * 150.0);
         let mut worst = 0.0_f64;
@@ -227,10 +227,10 @@ fn no_flank_ever_pulls_and_both_never_push_at_once() {
         run.advance_to(1e-5 * f64::from(sample));
         let along = |coupling: &Coupling, of: &[f64]| coupling.row.dot(of);
         let depth = [
-            along(&couplings[0], &run.state.position),
-            along(&couplings[1], &run.state.position) - 1e-5,
+            along(&couplings[0], run.state.position()),
+            along(&couplings[1], run.state.position()) - 1e-5,
         ];
-        let rate = [0, 1].map(|flank| along(&couplings[flank], &run.state.velocity));
+        let rate = [0, 1].map(|flank| along(&couplings[flank], run.state.velocity()));
         let push = [0, 1].map(|flank| 4e8 * depth[flank] + mesh.damping * rate[flank]);
         let force = run.motion().mesh_force(0);
         // The law of equations.md, section 3, with its clamp.
@@ -268,7 +268,7 @@ fn momentum_passes_through_losses_of_contact() {
             let of = |rotor: usize| {
                 let rotor = &run.model.rotors[rotor];
                 let rigid = rotor.torsional.range().start;
-                run.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
+                run.state.velocity()[rigid] / rotor.gears[0].theta.entry(rigid)
             };
             of(0) - of(1) // equal base radii
         };

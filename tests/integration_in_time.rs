@@ -267,8 +267,8 @@ fn rectangular_stiffness_agrees_with_the_piecewise_matrix_exponential() {
 }
 
 fn energy(state: &State, stiffness: &DMatrix<f64>) -> f64 {
-    let q = DVector::from_column_slice(&state.position);
-    let v = DVector::from_column_slice(&state.velocity);
+    let q = DVector::from_column_slice(state.position());
+    let v = DVector::from_column_slice(state.velocity());
     0.5 * v.dot(&v) + 0.5 * q.dot(&(stiffness * &q))
 }
 
@@ -315,7 +315,7 @@ fn the_mesh_passes_on_momentum_and_takes_none() {
     let momentum = |rotor: usize| {
         let rotor = &motion.model.rotors[rotor];
         let rigid = rotor.torsional.range().start;
-        motion.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
+        motion.state.velocity()[rigid] / rotor.gears[0].theta.entry(rigid)
     };
     let found = momentum(0) - momentum(1);
     let exact = (500.0 - 380.0) * end;

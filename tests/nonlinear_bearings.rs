@@ -119,7 +119,7 @@ fn a_radial_force_keeps_energy_and_angular_momentum() {
         let invariants = |run: &Run| {
             let station = &run.model.rotors[0].bearings[0].station;
             let [x, y] = place(run);
-            let [vx, vy] = [&station.x, &station.y].map(|row| row.dot(&run.state.velocity));
+            let [vx, vy] = [&station.x, &station.y].map(|row| row.dot(run.state.velocity()));
             let energy = 0.5 * MASS * (vx * vx + vy * vy) + potential(x.hypot(y));
             (energy, MASS * (x * vy - y * vx))
         };

@@ -123,6 +123,25 @@ fn speeds_that_follow_from_others_come_back_as_they_were_in_the_file() {
 }
 
 #[test]
+fn what_is_read_leaves_no_trace_in_a_saved_state() {
+    for text in models() {
+        let (mut curious, mut blind) = (running(&text), running(&text));
+        let expected = steps(&mut curious, 0, 40);
+        for index in 0..39 {
+            blind.do_step(2e-5 * f64::from(index), 2e-5).unwrap();
+        }
+        assert_eq!(
+            steps(&mut blind, 39, 1),
+            expected[expected.len() / 40 * 39..]
+        );
+        // Neither of what is put together when asked for, nor of when that was.
+        blind.do_step(2e-5 * 40.0, 2e-5).unwrap();
+        steps(&mut curious, 40, 1);
+        assert_eq!(blind.save().to_bytes(), curious.save().to_bytes());
+    }
+}
+
+#[test]
 fn what_was_restored_in_between_leaves_no_trace() {
     for text in models() {
         let mut slave = running(&text);

@@ -111,7 +111,7 @@ pub fn started(train: &GearTrain, settings: &config::Simulation, tolerance: f64)
 /// x of a simulation.
 fn state(simulation: &Simulation) -> Vec<f64> {
     let state = simulation.motion().state;
-    [state.position.as_slice(), &state.velocity].concat()
+    [state.position(), state.velocity()].concat()
 }
 
 /// The RMS of every coordinate of x; those that hardly move count as if they moved a little.

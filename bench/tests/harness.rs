@@ -26,11 +26,11 @@ fn the_equations_for_everybody_are_those_of_the_library() {
         for time in [0.0, 1.234_567e-3, 4.321e-3] {
             simulation.advance_to(time).expect("the model is stable");
             let state = simulation.motion().state;
-            let x = [state.position.as_slice(), &state.velocity].concat();
+            let x = [state.position(), state.velocity()].concat();
             let mut derivative = vec![0.0; x.len()];
             equations.evaluate(time, &x, &mut derivative);
             let (rates, found) = derivative.split_at(x.len() / 2);
-            assert_eq!(rates, state.velocity);
+            assert_eq!(rates, state.velocity());
             let expected = simulation.acceleration();
             let largest = expected.iter().map(|value| value.abs()).fold(0.0, f64::max);
             for (found, expected) in found.iter().zip(&expected) {

@@ -196,6 +196,20 @@ impl Quantity {
         })
     }
 
+    /// Whether it is set from outside or follows from such parameters alone, without a model.
+    #[inline]
+    pub fn is_given(&self) -> bool {
+        matches!(
+            self,
+            Quantity::Torque { .. }
+                | Quantity::BaseDisplacement { .. }
+                | Quantity::BaseVelocity { .. }
+                | Quantity::PointForce { .. }
+                | Quantity::Parameter(_)
+                | Quantity::DerivedSpeed { .. }
+        )
+    }
+
     /// The value of everything that follows from model, state and inputs. Inputs have their place in
     /// [`Quantity::place`], parameters and speeds derived from them in the configuration: they give NaN here.
     pub fn evaluate(self, motion: &Motion<'_>) -> f64 {
@@ -238,7 +252,7 @@ impl Quantity {
             Quantity::PointDisplacement { point, axis } => motion.point_displacement(point)[axis],
             Quantity::PointVelocity { point, axis } => motion.point_velocity(point)[axis],
             Quantity::PointAcceleration { point, axis } => motion.point_acceleration(point)[axis],
-            Quantity::Modal { coordinate } => motion.state.position[coordinate],
+            Quantity::Modal { coordinate } => motion.state.position()[coordinate],
         }
     }
 

@@ -141,10 +141,18 @@ fn add_rotor<'a>(
             relative,
             stiffness: coefficients.stiffness,
             damping: coefficients.damping,
+            reading: None,
             follows_speed: free && bearing.depends_on_speed(),
             bearing: bearing.clone(),
         }
     };
+    let bearings = rotor.bearings.iter().enumerate().map(bearing);
+    let mut bearings: Vec<Bearing> = bearings.collect();
+    let linear = |one: &&mut Bearing| !one.follows_speed && one.bearing.nonlinear.is_none();
+    for bearing in bearings.iter_mut().filter(linear) {
+        bearing.reading = Some(system.readings.len());
+        system.readings.extend(bearing.readings());
+    }
     Rotor {
         counts: modal.counts(),
         has_rigid_rotation: modal.has_rigid_rotation(),
@@ -155,7 +163,7 @@ fn add_rotor<'a>(
             .iter()
             .map(|gear| station(gear.body.position))
             .collect(),
-        bearings: rotor.bearings.iter().enumerate().map(bearing).collect(),
+        bearings,
         torques: rotor
             .torques
             .iter()

@@ -121,7 +121,7 @@ impl Change<'_> {
                 return 0.0;
             }
             let row = &motion.model.system.couplings[mesh.first_coupling + flank].row;
-            let seen = [motion.displacement(row), motion.velocity(row)];
+            let seen = motion.state.seen(mesh.first_coupling + flank);
             let change = [self.displacement(row), self.velocity(row)];
             let depth = mesh.compression(flank, phase, seen).depth;
             let change = mesh.compression_change(flank, phase, phase_change, change);

@@ -184,9 +184,9 @@ impl Forcing for Excitation<'_> {
         }
     }
 
-    fn slow_into(&self, _: &[f64], velocity: &[f64], slow: &mut [f64]) {
+    fn slow_into(&self, rates: &[f64], slow: &mut [f64]) {
         for (spin, slow) in self.model.spins.iter().zip(slow) {
-            *slow = self.model.system.couplings[spin.turn].row.dot(velocity);
+            *slow = rates[spin.turn];
         }
     }
 

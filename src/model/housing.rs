@@ -207,7 +207,7 @@ impl Motion<'_> {
 
     /// Its acceleration [m/s^2].
     pub fn point_acceleration(&self, point: usize) -> [f64; 2] {
-        let motion = [&self.state.position, &self.state.velocity].map(Vec::as_slice);
+        let motion = [self.state.position(), self.state.velocity()];
         let held = |input| self.force_on_gearbox(input);
         self.model
             .housing()

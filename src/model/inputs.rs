@@ -69,21 +69,41 @@ pub(super) struct SupportVibration {
 }
 
 impl Inputs {
-    /// The input at a place, to be changed.
-    #[inline]
-    pub fn at_mut(&mut self, place: Place) -> Option<&mut f64> {
-        let (bases, forces) = (&mut self.bases, &mut self.forces);
+    /// The input at a place.
+    pub fn at(&self, place: Place) -> f64 {
         match place {
-            Place::Torque(number) => self.torques.get_mut(number as usize),
+            Place::Torque(torque) => self.torques[torque as usize],
             Place::Displacement(bearing, axis) => {
-                let base = bases.get_mut(bearing as usize)?;
-                base.displacement.get_mut(usize::from(axis))
+                self.bases[bearing as usize].displacement[usize::from(axis)]
             }
             Place::Velocity(bearing, axis) => {
-                let base = bases.get_mut(bearing as usize)?;
-                base.velocity.get_mut(usize::from(axis))
+                self.bases[bearing as usize].velocity[usize::from(axis)]
             }
-            Place::Force(force, axis) => forces.get_mut(force as usize)?.get_mut(usize::from(axis)),
+            Place::Force(force, axis) => self.forces[force as usize][usize::from(axis)],
+        }
+    }
+
+    /// Puts values in their places.
+    #[inline]
+    pub fn put(&mut self, values: impl Iterator<Item = (Place, f64)>) {
+        let torques = self.torques.as_mut_slice();
+        let (bases, forces) = (self.bases.as_mut_slice(), self.forces.as_mut_slice());
+        for (place, value) in values {
+            let target = match place {
+                Place::Torque(torque) => torques.get_mut(torque as usize),
+                Place::Displacement(bearing, axis) => bases
+                    .get_mut(bearing as usize)
+                    .and_then(|base| base.displacement.get_mut(usize::from(axis))),
+                Place::Velocity(bearing, axis) => bases
+                    .get_mut(bearing as usize)
+                    .and_then(|base| base.velocity.get_mut(usize::from(axis))),
+                Place::Force(force, axis) => forces
+                    .get_mut(force as usize)
+                    .and_then(|force| force.get_mut(usize::from(axis))),
+            };
+            if let Some(target) = target {
+                *target = value;
+            }
         }
     }
 
@@ -225,7 +245,7 @@ impl BaseMotion {
 
 impl Bearing {
     /// K u_b + C u_b'.
-    fn base_force(&self, base: &BaseMotion) -> [f64; 2] {
+    pub(super) fn base_force(&self, base: &BaseMotion) -> [f64; 2] {
         let spring = product(&self.stiffness, base.displacement);
         let damper = product(&self.damping, base.velocity);
         [spring[0] + damper[0], spring[1] + damper[1]]

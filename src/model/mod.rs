@@ -35,7 +35,7 @@ use nalgebra::DMatrix;
 use crate::config::{Planar, TorqueCoupling};
 use crate::mesh::{GearLoad, LineOfAction, StiffnessLaw, TransmissionError};
 use crate::rotor::{ModalRotor, ModeCounts};
-use crate::solver::{Block, Harmonic, Row, System};
+use crate::solver::{Block, Harmonic, Reading, Row, System};
 use crate::train::{self, GearAddress};
 
 pub use change::Change;
@@ -129,6 +129,9 @@ pub struct Bearing {
     pub stiffness: Planar,
     /// Damping at the mean speed [N s/m].
     pub damping: Planar,
+    /// The first of the two readings of the system that are its forces on a gearbox that stands still, where these follow from
+    /// displacements and velocities by constant factors.
+    reading: Option<usize>,
     /// Whether both follow a speed that changes, and the gearbox's motion acts through them then.
     follows_speed: bool,
     bearing: train::Bearing,
@@ -265,6 +268,21 @@ impl Rotor {
 }
 
 impl Bearing {
+    /// K u + C u' in x and y, where the gearbox stands still.
+    fn readings(&self) -> [Reading; 2] {
+        let along = |matrix: &Planar, axis: usize| {
+            let mut row = Row::default();
+            for (factor, relative) in matrix.rows()[axis].into_iter().zip(&self.relative) {
+                row.add(factor, relative);
+            }
+            row
+        };
+        [0, 1].map(|axis| Reading {
+            position: along(&self.stiffness, axis),
+            velocity: along(&self.damping, axis),
+        })
+    }
+
     /// Stiffness [N/m] and damping [N s/m] at a speed of the rotor [rad/s].
     fn at_speed(&self, speed: f64) -> (Planar, Planar) {
         if self.follows_speed {

@@ -5,7 +5,8 @@
 //!   bearing   force of the rotor on the gearbox = K (u - u_b) + C (u' - u_b') + F_r (u - u_b) / r
 //! ```
 //!
-//! Every quantity is computed when it is asked for, from the state, the inputs and the time.
+//! Every quantity is computed when it is asked for, from the state, the inputs and the time. Of the state, what meshes and
+//! linear bearings need is always there; displacements and velocities are put together for the rest.
 
 use super::inputs::product;
 use super::radial::secant;
@@ -25,16 +26,30 @@ pub struct Motion<'a> {
     pub state: &'a State,
     /// What is set from outside.
     pub inputs: &'a Inputs,
+    /// Motion of all supports in addition.
+    vibration: BaseMotion,
+}
+
+impl<'a> Motion<'a> {
+    /// The model in this state under these inputs.
+    pub fn new(model: &'a ModalModel, state: &'a State, inputs: &'a Inputs) -> Motion<'a> {
+        Motion {
+            vibration: model.vibration.in_state(state, &model.harmonics),
+            model,
+            state,
+            inputs,
+        }
+    }
 }
 
 impl Motion<'_> {
     /// Displacement, rotation or deflection along a row.
     pub fn displacement(&self, row: &Row) -> f64 {
-        row.dot(&self.state.position)
+        row.dot(self.state.position())
     }
 
     pub(super) fn velocity(&self, row: &Row) -> f64 {
-        row.dot(&self.state.velocity)
+        row.dot(self.state.velocity())
     }
 
     /// Rotation angle of a rotor [rad].
@@ -69,12 +84,12 @@ impl Motion<'_> {
     }
 
     pub(super) fn phase(&self, mesh: &Mesh) -> Phase {
-        if self.model.is_free() {
-            let gear = mesh.gears[0];
-            let theta = &self.model.rotors[gear.rotor].gears[gear.gear].theta;
-            mesh.phase_of(self.displacement(theta), self.velocity(theta))
-        } else {
-            mesh.phase_at(self.state.time)
+        match mesh.turning {
+            Some(coupling) => {
+                let [angle, velocity] = self.state.seen(coupling);
+                mesh.phase_of(angle, velocity)
+            }
+            None => mesh.phase_at(self.state.time),
         }
     }
 
@@ -87,7 +102,7 @@ impl Motion<'_> {
     /// delta, transmission error included [m].
     pub fn mesh_deflection(&self, mesh: usize) -> f64 {
         let mesh = &self.model.meshes[mesh];
-        let seen = [self.displacement(&mesh.row), self.velocity(&mesh.row)];
+        let seen = self.state.seen(mesh.first_coupling);
         mesh.compression(0, self.phase(mesh), seen).depth
     }
 
@@ -105,8 +120,7 @@ impl Motion<'_> {
             if flank == 1 && mesh.backlash.is_none() {
                 return 0.0;
             }
-            let row = &self.model.system.couplings[mesh.first_coupling + flank].row;
-            let seen = [self.displacement(row), self.velocity(row)];
+            let seen = self.state.seen(mesh.first_coupling + flank);
             mesh.flank_force(k, mesh.compression(flank, phase, seen))
         })
     }
@@ -133,6 +147,10 @@ impl Motion<'_> {
     /// Force of the rotor on the gearbox through a bearing [N]; `input` is the bearing's place among the
     /// inputs.
     pub fn bearing_force(&self, rotor: usize, bearing: &Bearing, input: usize) -> [f64; 2] {
+        if let Some(first) = bearing.reading {
+            let by_gearbox = bearing.base_force(&self.gearbox(input));
+            return [0, 1].map(|axis| self.state.reading(first + axis) - by_gearbox[axis]);
+        }
         let BaseMotion {
             displacement,
             velocity,
@@ -169,8 +187,6 @@ impl Motion<'_> {
 
     /// Motion of the gearbox at a bearing.
     fn gearbox(&self, input: usize) -> BaseMotion {
-        let model = self.model;
-        let vibration = model.vibration.in_state(self.state, &model.harmonics);
-        self.inputs.bases[input].plus(&vibration)
+        self.inputs.bases[input].plus(&self.vibration)
     }
 }

@@ -25,9 +25,8 @@ impl Slave {
             if !seed.is_finite() {
                 return Err(Error::new(format!("the seed must be finite, found {seed}")));
             }
-            if let Some(input) = direction.at_mut(*known) {
-                *input += seed;
-            }
+            let sum = direction.at(*known) + seed;
+            direction.put([(*known, sum)].into_iter());
         }
         let starting = self.life_cycle == LifeCycle::Initialization;
         let start = self.config.simulation.start;
@@ -71,7 +70,7 @@ impl Slave {
         let motion = simulation.motion();
         let change = Change {
             motion,
-            position: &motion.state.velocity,
+            position: motion.state.velocity(),
             velocity: &acceleration,
             inputs: &rate,
             time: 1.0,
@@ -98,11 +97,7 @@ impl Slave {
             )));
         }
         let mut rate = self.rate.take().unwrap_or_else(|| self.no_inputs());
-        for (input, &value) in inputs.iter().zip(values) {
-            if let Some(rate) = rate.at_mut(*input) {
-                *rate = value;
-            }
-        }
+        rate.put(inputs.into_iter().zip(values.iter().copied()));
         self.rate = Some(rate);
         Ok(())
     }

@@ -2,34 +2,46 @@
 
 use super::{Error, LifeCycle, Slave};
 use crate::interface::{Causality, Parameter, Quantity};
-use crate::model::{Inputs, Place};
 use crate::simulation::Simulation;
 
 impl Slave {
     /// fmi2GetReal: overwrites `values`, one per reference. Parameters and inputs are readable from the
     /// start, everything else from initialization on.
     pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        let mut computed = false;
         for &reference in references {
-            self.design.variable(reference)?;
+            let variable = self.design.variable(reference)?;
+            let given = variable.quantity.is_given();
+            if !given && self.life_cycle == LifeCycle::Instantiated {
+                return Err(Error::new(format!(
+                    "{} can be read from initialization mode on",
+                    variable.name
+                )));
+            }
+            computed |= !given;
         }
+        if computed {
+            self.started()?;
+        }
+        let motion = self.simulation.as_ref().map(Simulation::motion);
         // Both components of a bearing's force follow from the same motion, and masters read them one after the other.
-        let mut latest: Option<(usize, [f64; 2])> = None;
+        let mut latest = (usize::MAX, [0.0; 2]);
         for (&reference, value) in references.iter().zip(values) {
-            let quantity = self.design.variable(reference)?.quantity;
-            *value = match (quantity, latest) {
-                (Quantity::BearingForce { input, axis, .. }, Some((known, force)))
-                    if input == known =>
-                {
-                    force[axis]
+            let quantity = &self.design.variable(reference)?.quantity;
+            *value = match (quantity, &motion) {
+                (&Quantity::BearingForce { input, axis, .. }, Some(motion)) => {
+                    if latest.0 != input {
+                        latest = (input, quantity.bearing_force(motion));
+                    }
+                    latest.1[axis]
                 }
-                (Quantity::BearingForce { input, axis, .. }, _)
-                    if self.life_cycle == LifeCycle::Stepping =>
-                {
-                    let force = quantity.bearing_force(&self.started()?.motion());
-                    latest = Some((input, force));
-                    force[axis]
-                }
-                _ => self.read(reference)?,
+                (Quantity::Parameter(parameter), _) => *parameter.slot(&mut self.config),
+                (&Quantity::DerivedSpeed { rotor, .. }, _) => self.config.rotors[rotor].speed,
+                (quantity, motion) => match (self.design.input(reference), motion) {
+                    (Some(place), _) => self.inputs.at(place),
+                    (None, Some(motion)) => quantity.evaluate(motion),
+                    (None, None) => f64::NAN,
+                },
             };
         }
         Ok(())
@@ -37,31 +49,31 @@ impl Slave {
 
     /// fmi2SetReal: all or nothing.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
-        for (&reference, &value) in references.iter().zip(values) {
-            if self.design.input(reference).is_none() || !value.is_finite() {
+        let pairs = || references.iter().zip(values);
+        let design = &self.design;
+        let as_usual = |(&reference, value): (&u32, &f64)| {
+            design.input(reference).is_some() && value.is_finite()
+        };
+        if !pairs().all(as_usual) {
+            for (&reference, &value) in pairs() {
                 self.check_settable(reference, value)?;
+            }
+            for (&reference, &value) in pairs() {
+                self.set_parameter(reference, value)?;
             }
         }
         if self.life_cycle != LifeCycle::Stepping && !references.is_empty() {
             self.simulation = None; // the equilibrium depends on parameters and inputs
         }
-        for (&reference, &value) in references.iter().zip(values) {
-            match self.design.input(reference) {
-                Some(place) => put(&mut self.inputs, place, value),
-                None => self.set_parameter(reference, value)?,
-            }
-        }
-        let Some(running) = self.simulation.as_mut().map(Simulation::inputs_mut) else {
-            return Ok(());
-        };
-        if self.config.simulation.input_extrapolation == 0.0 {
-            running.overwrite(&self.inputs);
-        } else {
-            // The other inputs may have been continued there.
-            for (&reference, &value) in references.iter().zip(values) {
-                if let Some(place) = self.design.input(reference) {
-                    put(running, place, value);
-                }
+        let design = &self.design;
+        let inputs =
+            || pairs().filter_map(|(&reference, &value)| Some((design.input(reference)?, value)));
+        self.inputs.put(inputs());
+        if let Some(running) = self.simulation.as_mut().map(Simulation::inputs_mut) {
+            if self.config.simulation.input_extrapolation == 0.0 {
+                running.overwrite(&self.inputs);
+            } else {
+                running.put(inputs()); // the others may have been continued there
             }
         }
         Ok(())
@@ -74,25 +86,6 @@ impl Slave {
             Some(reference) => Err(Error::new(format!(
                 "value reference {reference} is unknown: this FMU has no {base_type} variables"
             ))),
-        }
-    }
-
-    fn read(&mut self, reference: u32) -> Result<f64, Error> {
-        let place = self.design.input(reference);
-        if let Some(input) = place.and_then(|place| self.inputs.at_mut(place)) {
-            return Ok(*input);
-        }
-        let quantity = self.design.variable(reference)?.quantity;
-        match quantity {
-            Quantity::Parameter(parameter) => Ok(*parameter.slot(&mut self.config)),
-            Quantity::DerivedSpeed { rotor, .. } => Ok(self.config.rotors[rotor].speed),
-            _ if self.life_cycle == LifeCycle::Instantiated => {
-                let name = &self.design.variable(reference)?.name;
-                Err(Error::new(format!(
-                    "{name} can be read from initialization mode on"
-                )))
-            }
-            _ => Ok(quantity.evaluate(&self.started()?.motion())),
         }
     }
 
@@ -127,11 +120,5 @@ impl Slave {
             self.tolerance_set |= parameter == Parameter::Tolerance;
         }
         Ok(())
-    }
-}
-
-fn put(inputs: &mut Inputs, place: Place, value: f64) {
-    if let Some(input) = inputs.at_mut(place) {
-        *input = value;
     }
 }

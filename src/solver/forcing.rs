@@ -45,8 +45,8 @@ pub trait Forcing {
     fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64;
     /// The piece that follows when the motion has ended one.
     fn next_piece(&self, law: usize, piece: Piece, at: Instant<'_>) -> Piece;
-    /// The slow parameters in this motion.
-    fn slow_into(&self, position: &[f64], velocity: &[f64], slow: &mut [f64]);
+    /// The slow parameters where couplings see these rates.
+    fn slow_into(&self, rates: &[f64], slow: &mut [f64]);
     /// Whether the blocks should be made anew: `used` are the values they belong to, `now` the present ones.
     fn is_stale(&self, used: &[f64], now: &[f64]) -> bool;
     /// Overwrites the blocks with those of these slow parameters.

@@ -19,6 +19,7 @@ mod grid;
 mod integrator;
 mod march;
 mod newmark;
+mod pose;
 mod row;
 mod state;
 
@@ -35,6 +36,7 @@ pub use state::State;
 use crate::linalg::multiply_add;
 use control::Control;
 use exponential::Turning;
+use pose::Pose;
 use state::{Track, copy_tracks};
 
 /// The constant part of the equations of motion.
@@ -54,6 +56,17 @@ pub struct System {
     pub slow: Vec<f64>,
     /// What the tolerance holds for.
     pub monitors: Vec<Monitor>,
+    /// What is read off after every call, because it is often asked for.
+    pub readings: Vec<Reading>,
+}
+
+/// A number that follows from displacements and velocities: `position q + velocity q'`.
+#[derive(Debug, Clone)]
+pub struct Reading {
+    /// Per displacement.
+    pub position: Row,
+    /// Per velocity.
+    pub velocity: Row,
 }
 
 /// Forces whose error is controlled relative to their own RMS over the run.
@@ -117,48 +130,40 @@ pub struct Counts {
 
 impl System {
     /// The state with these displacements and velocities at `time`, one entry per coordinate, for a solver
-    /// that carries `tracks` solutions of its own.
-    fn state_at(&self, time: f64, position: Vec<f64>, velocity: Vec<f64>, tracks: usize) -> State {
-        let track = Track {
-            position: position.clone(),
-            velocity: velocity.clone(),
-        };
-        State {
+    /// that carries `tracks` solutions of its own or `states` decoupled ones.
+    fn state_at(&self, time: f64, whole: Track, (tracks, states): (usize, usize)) -> State {
+        let zeros = || vec![0.0; self.couplings.len()];
+        let mut state = State {
             time,
-            position,
-            velocity,
-            tracks: vec![track; tracks],
-            decoupled: Vec::new(),
-            is_decoupled: false,
+            tracks: vec![whole.clone(); tracks],
+            pose: Pose::new(whole, states),
+            seen: [zeros(), zeros()],
+            readings: vec![0.0; self.readings.len()],
             turning: Turning::default(),
             slow: self.slow.clone(),
             control: Control::new(self.monitors.len(), self.laws),
-        }
+        };
+        state.read_off(self);
+        state
     }
 
     /// q'' in a state, just after its time.
     pub fn acceleration(&self, forcing: &impl Forcing, state: &State) -> Vec<f64> {
-        let State {
-            time,
-            position,
-            velocity,
-            ..
-        } = state;
-        let zeros = || vec![0.0; self.couplings.len()];
-        let (mut deflection, mut rate, mut forces) = (zeros(), zeros(), zeros());
-        self.deflections_into(position, velocity, &mut deflection, &mut rate);
+        let (time, position, velocity) = (state.time, state.position(), state.velocity());
+        let [deflection, rate] = &state.seen;
         let at = Instant {
-            time: *time,
-            deflection: &deflection,
-            rate: &rate,
+            time,
+            deflection,
+            rate,
             slow: &self.slow,
         };
+        let mut forces = vec![0.0; self.couplings.len()];
         let mut pieces = vec![Piece::default(); self.laws];
-        let inside = forcing.next_breakpoint(*time).min(time + 1.0);
+        let inside = forcing.next_breakpoint(time).min(time + 1.0);
         forcing.enter(at, 0.5 * (time + inside), &mut pieces);
         forcing.forces_into(at, &pieces, &mut forces);
         let mut acceleration = vec![0.0; self.size];
-        forcing.load_into(self, *time, &mut acceleration);
+        forcing.load_into(self, time, &mut acceleration);
         for block in &self.blocks {
             let range = block.range();
             let target = &mut acceleration[range.clone()];

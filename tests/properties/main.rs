@@ -82,7 +82,7 @@ fn every_mesh_acts_and_reacts_also_in_modal_coordinates() {
                 ];
                 for (row, part) in parts {
                     row.add_to(part, &mut modal);
-                    power += part * row.dot(&run.state.velocity);
+                    power += part * row.dot(run.state.velocity());
                 }
             }
             let flanks = if link.backlash.is_some() { 2 } else { 1 };
@@ -104,7 +104,7 @@ fn every_mesh_acts_and_reacts_also_in_modal_coordinates() {
                 };
                 let own = if flanks == 1 { total } else { own };
                 coupling.column.add_to(own, &mut modal);
-                rates += own * coupling.row.dot(&run.state.velocity);
+                rates += own * coupling.row.dot(run.state.velocity());
             }
             let size = mesh
                 .row
@@ -189,8 +189,8 @@ fn space_has_no_direction_no_handedness_and_meshes_no_first_gear() {
 
 fn energy(run: &Run) -> f64 {
     let (stiffness, _) = run.model.mean_matrices();
-    let q = DVector::from_column_slice(&run.state.position);
-    let velocity = DVector::from_column_slice(&run.state.velocity);
+    let q = DVector::from_column_slice(run.state.position());
+    let velocity = DVector::from_column_slice(run.state.velocity());
     0.5 * velocity.norm_squared() + 0.5 * q.dot(&(stiffness * &q))
 }
 
@@ -227,10 +227,10 @@ fn energy_changes_by_the_work_of_torques_and_dampers() {
         stir(&mut run);
         let (_, damping) = run.model.mean_matrices();
         let power = |run: &Run| {
-            let velocity = DVector::from_column_slice(&run.state.velocity);
+            let velocity = DVector::from_column_slice(run.state.velocity());
             let torques = run.model.torques().zip(&run.inputs.torques);
             let given: f64 = torques
-                .map(|(row, torque)| torque * row.dot(&run.state.velocity))
+                .map(|(row, torque)| torque * row.dot(run.state.velocity()))
                 .sum();
             given - velocity.dot(&(&damping * &velocity))
         };
@@ -276,7 +276,7 @@ fn momentum_grows_with_the_external_torques_alone() {
             let momentum = |run: &Run| -> f64 {
                 let of = |(rotor, ratio): (&geartrain::model::Rotor, &f64)| {
                     let rigid = rotor.torsional.range().start;
-                    ratio * run.state.velocity[rigid] / rotor.gears[0].theta.entry(rigid)
+                    ratio * run.state.velocity()[rigid] / rotor.gears[0].theta.entry(rigid)
                 };
                 run.model.rotors.iter().zip(&ratios).map(of).sum()
             };

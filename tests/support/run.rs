@@ -62,11 +62,7 @@ impl Run {
     }
 
     pub fn motion(&self) -> Motion<'_> {
-        Motion {
-            model: &self.model,
-            state: &self.state,
-            inputs: &self.inputs,
-        }
+        Motion::new(&self.model, &self.state, &self.inputs)
     }
 
     pub fn counts(&self) -> Counts {

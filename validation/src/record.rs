@@ -118,7 +118,7 @@ fn record(simulation: &mut Simulation, from: f64) -> Vec<Vec<f64>> {
 fn value(simulation: &Simulation, signal: Signal) -> f64 {
     let motion = simulation.motion();
     let rotor = |stage: usize| &motion.model.rotors[stage - 1];
-    let coordinate = |index: usize| motion.state.position[index];
+    let coordinate = |index: usize| motion.state.position()[index];
     match signal {
         Signal::MeshForce(stage) => motion.mesh_force(stage - 2),
         Signal::GearX(stage) => motion.displacement(&rotor(stage).gears[0].x),

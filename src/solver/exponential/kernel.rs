@@ -1,5 +1,7 @@
 //! One step of the collocation method.
 
+use std::sync::Arc;
+
 use pulp::Arch;
 
 use super::super::grid::canonical;
@@ -9,13 +11,14 @@ use super::coefficients::Coefficients;
 use super::control::growth;
 use super::events::Sighting;
 use super::exchange::Exchange;
-use super::lanes::Quad;
 use super::motion::Motion;
 use super::nodes::{Nodes, accuracy};
 use super::panel::Panels;
 use super::part::{Part, take_apart};
-use super::passes::{Compute, LookAhead, Move, Observe, PutTogether, SolveLines, TakeLoads};
+use super::passes::{Compute, LookAhead, Move, Observe, ReadOff, SolveLines, TakeLoads};
+use super::rows::Rows;
 use super::scratch::Scratch;
+use super::shapes::Shapes;
 use super::sight::{Sight, instant};
 
 /// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
@@ -37,6 +40,9 @@ pub(super) struct Kernel {
     present_slow: Vec<f64>,
     parts: Vec<Part>,
     panels: Panels,
+    /// How displacements and velocities follow from the states, and the readings of the system.
+    shapes: Arc<Shapes>,
+    reading: Rows,
     motion: Motion,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
@@ -50,6 +56,8 @@ pub(super) struct Kernel {
     /// What acts on one part in a step.
     acting: Vec<[f64; 2]>,
     pub(super) sight: Sight,
+    /// Whether the couplings have seen the motion as it is.
+    is_seen: bool,
     pub(super) nodes: Nodes,
     counts: Counts,
     /// The CPU's vectors.
@@ -68,6 +76,8 @@ impl Kernel {
             blocks: system.blocks.clone(),
             used_slow: system.slow.clone(),
             present_slow: system.slow.clone(),
+            shapes: Arc::new(Shapes::of(&parts)),
+            reading: reading(system, &parts),
             motion: Motion::new(&parts, system.loads.len()),
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
@@ -77,6 +87,7 @@ impl Kernel {
             scratch: Scratch::new(&parts, harmonics.len()),
             acting: vec![[0.0; 2]; parts.iter().map(Part::columns).max().unwrap_or(0) / 2],
             sight: Sight::new(couplings),
+            is_seen: false,
             nodes: Nodes::new(couplings, &exchange),
             counts: Counts::default(),
             arch: Arch::new(),
@@ -86,9 +97,9 @@ impl Kernel {
         }
     }
 
-    /// As many states as the parts have, all zero.
-    pub(super) fn states(&self) -> Vec<Quad> {
-        vec![[0.0; 4]; self.motion.states.len()]
+    /// Number of states in fours.
+    pub(super) fn states(&self) -> usize {
+        self.motion.states.len()
     }
 
     /// Work done so far.
@@ -101,12 +112,13 @@ impl Kernel {
 
     /// Prepares for a call that begins with this state.
     pub(super) fn take_over<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) {
-        self.follow_slow(task, state);
-        if state.is_decoupled {
-            self.motion.states.copy_from_slice(&state.decoupled);
-        } else {
-            self.motion.take_apart(&self.parts, state);
+        let slow_moved = self.follow_slow(task, state);
+        match state.pose.decoupled().filter(|_| !slow_moved) {
+            Some(states) => self.motion.states.copy_from_slice(states),
+            None => self.motion.take_apart(&self.parts, state.pose.whole()),
         }
+        copy(&state.seen, &mut self.sight.nodes[0]);
+        self.is_seen = true;
         self.arch.dispatch(TakeLoads {
             parts: &self.parts,
             motion: &mut self.motion,
@@ -116,34 +128,45 @@ impl Kernel {
 
     /// Ends the call: writes the state.
     pub(super) fn hand_back(&mut self, state: &mut State) -> Result<(), StepError> {
-        state.decoupled.copy_from_slice(&self.motion.states);
-        state.is_decoupled = true;
-        let numbers = self.arch.dispatch(PutTogether {
-            parts: &self.parts,
-            motion: &mut self.motion,
-            state,
-        });
-        if numbers {
-            Ok(())
-        } else {
-            Err(StepError::NotFinite { time: state.time })
+        if !self.observe_states() {
+            return Err(StepError::NotFinite { time: state.time });
         }
+        copy(&self.sight.nodes[0], &mut state.seen);
+        self.arch.dispatch(ReadOff {
+            parts: &self.parts,
+            motion: &self.motion,
+            rows: &self.reading,
+            readings: &mut state.readings,
+        });
+        state.pose.decouple(&self.motion.states, &self.shapes);
+        Ok(())
     }
 
-    /// Makes the blocks anew where the slow parameters of the state ask for it.
-    fn follow_slow<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) {
+    /// What the couplings see in the present states. Gives whether these are numbers.
+    fn observe_states(&mut self) -> bool {
+        self.arch.dispatch(Observe {
+            panels: &self.panels.all,
+            motion: &self.motion,
+            sight: &mut self.sight,
+        })
+    }
+
+    /// Makes the blocks anew where the slow parameters of the state ask for it. Gives whether its decoupled states belong to
+    /// other ones.
+    fn follow_slow<F: Forcing>(&mut self, task: Task<'_, F>, state: &mut State) -> bool {
         let present = &mut self.present_slow;
-        task.forcing
-            .slow_into(&state.position, &state.velocity, present);
-        if task.forcing.is_stale(&state.slow, present) {
+        task.forcing.slow_into(&state.seen[1], present);
+        let stale = task.forcing.is_stale(&state.slow, present);
+        if stale {
             state.slow.clone_from(present);
-            state.is_decoupled = false;
         }
         if self.used_slow != state.slow {
             self.used_slow.clone_from(&state.slow);
             task.forcing.blocks_into(&self.used_slow, &mut self.blocks);
             self.parts = take_apart(task.system, &self.blocks, task.forcing.harmonics());
             self.panels = Panels::of(&self.parts);
+            self.shapes = Arc::new(Shapes::of(&self.parts));
+            self.reading = reading(task.system, &self.parts);
             self.motion = Motion::new(&self.parts, task.system.loads.len());
             let harmonics = self.frequencies.len();
             self.scratch = Scratch::new(&self.parts, harmonics);
@@ -153,6 +176,7 @@ impl Kernel {
             self.steps.fill(0.0);
             self.counts.refreshes += 1;
         }
+        stale
     }
 
     /// The coefficients for this step length, computed unless they are kept from earlier steps.
@@ -210,6 +234,7 @@ impl Kernel {
             *squares += span.step * sight.mean_square(monitor);
         }
         sight.move_on();
+        self.is_seen = false;
         state.control.elapsed += span.step;
         state.time = span.end;
         self.counts.steps += 1;
@@ -218,11 +243,10 @@ impl Kernel {
 
 impl Method for Kernel {
     fn observe<F: Forcing>(&mut self, _: Task<'_, F>, _: &mut State) {
-        self.arch.dispatch(Observe {
-            panels: &self.panels.all,
-            states: &self.motion.states,
-            sight: &mut self.sight,
-        });
+        if !self.is_seen {
+            self.observe_states();
+            self.is_seen = true;
+        }
     }
 
     fn instant<'a>(&'a self, state: &'a State) -> Instant<'a> {
@@ -326,5 +350,19 @@ impl Method for Kernel {
             ratio.max(1.0)
         };
         Ok(Outcome::Accepted { ratio })
+    }
+}
+
+/// Rows of the readings.
+fn reading(system: &System, parts: &[Part]) -> Rows {
+    let readings = system.readings.iter();
+    let numbers = readings.map(|reading| [&reading.position, &reading.velocity]);
+    Rows::over(parts, &numbers.collect::<Vec<_>>())
+}
+
+/// Copies deflections and rates.
+fn copy(source: &[Vec<f64>; 2], target: &mut [Vec<f64>; 2]) {
+    for (target, source) in target.iter_mut().zip(source) {
+        target.copy_from_slice(source);
     }
 }

@@ -28,14 +28,19 @@ mod panel;
 mod part;
 mod passes;
 mod polynomials;
+mod rows;
 mod scratch;
+mod shapes;
 mod sight;
 mod turning;
 
+use super::control::Control;
 use super::march::{March, Task};
+use super::state::Track;
 use super::{Counts, Forcing, Harmonic, State, StepError, System};
 use kernel::Kernel;
 
+pub(super) use shapes::Shapes;
 pub(super) use turning::Turning;
 
 /// The integrator with its workspace. It holds nothing that influences a result: everything that does is in the
@@ -44,23 +49,30 @@ pub(super) use turning::Turning;
 pub struct Exponential {
     march: March,
     kernel: Kernel,
-    before: State,
+    before: Before,
+}
+
+/// What a call changes of a state before it is known to succeed, as it was at the start.
+#[derive(Debug, Clone)]
+struct Before {
+    time: f64,
+    turning: Turning,
+    slow: Vec<f64>,
+    control: Control,
 }
 
 impl Exponential {
     /// A workspace for this system under harmonics like these.
     pub fn new(system: &System, harmonics: &[Harmonic]) -> Exponential {
-        let zeros = || vec![0.0; system.size];
-        let kernel = Kernel::new(system, harmonics);
-        let before = State {
-            turning: Turning::unknown(harmonics.len()),
-            decoupled: kernel.states(),
-            ..system.state_at(0.0, zeros(), zeros(), 0)
-        };
         Exponential {
             march: March::new(system),
-            kernel,
-            before,
+            kernel: Kernel::new(system, harmonics),
+            before: Before {
+                time: 0.0,
+                turning: Turning::unknown(harmonics.len()),
+                slow: system.slow.clone(),
+                control: Control::new(system.monitors.len(), system.laws),
+            },
         }
     }
 
@@ -72,10 +84,10 @@ impl Exponential {
         position: Vec<f64>,
         velocity: Vec<f64>,
     ) -> State {
+        let whole = Track { position, velocity };
         State {
             turning: Turning::unknown(self.before.turning.angles.len()),
-            decoupled: self.kernel.states(),
-            ..system.state_at(time, position, velocity, 0)
+            ..system.state_at(time, whole, (0, self.kernel.states()))
         }
     }
 
@@ -97,7 +109,7 @@ impl Exponential {
         if until <= state.time {
             return Ok(());
         }
-        self.before.copy_from(state);
+        self.before.take(state);
         let task = Task {
             system,
             forcing,
@@ -109,8 +121,24 @@ impl Exponential {
             .advance(&mut self.kernel, task, state, until)
             .and_then(|()| self.kernel.hand_back(state));
         if result.is_err() {
-            state.copy_from(&self.before);
+            self.before.put_back(state);
         }
         result
+    }
+}
+
+impl Before {
+    fn take(&mut self, state: &State) {
+        self.time = state.time;
+        self.turning.copy_from(&state.turning);
+        self.slow.clone_from(&state.slow);
+        self.control.copy_from(&state.control);
+    }
+
+    fn put_back(&self, state: &mut State) {
+        state.time = self.time;
+        state.turning.copy_from(&self.turning);
+        state.slow.clone_from(&self.slow);
+        state.control.copy_from(&self.control);
     }
 }

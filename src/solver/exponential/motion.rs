@@ -1,10 +1,11 @@
 //! The motion of all parts in decoupled states.
 
-use super::super::{Ramp, State};
+use super::super::Ramp;
+use super::super::state::Track;
 use super::block_diagonal::{BlockDiagonal, add_pairs};
 use super::lanes::{Quad, add_multiple};
 use super::part::Part;
-use crate::linalg::{add_scaled, multiply_add};
+use crate::linalg::multiply_add;
 
 /// The states of all parts in every list.
 #[derive(Debug, Clone)]
@@ -20,8 +21,6 @@ pub(super) struct Motion {
     loads: Vec<Ramp>,
     /// Whether it changes.
     pub(super) ramps: bool,
-    /// Displacements and velocities of one part.
-    together: Vec<f64>,
     /// B.
     dynamics: BlockDiagonal,
 }
@@ -37,7 +36,6 @@ impl Motion {
                 dynamics.set(part, group, 1.0, group.matrix.as_slice());
             }
         }
-        let largest = parts.iter().map(|part| 2 * part.coordinates.len()).max();
         Motion {
             states: zeros(),
             derivative: zeros(),
@@ -45,7 +43,6 @@ impl Motion {
             load_rate: zeros(),
             loads: Vec::with_capacity(loads),
             ramps: false,
-            together: vec![0.0; largest.unwrap_or(0)],
             dynamics,
         }
     }
@@ -59,33 +56,25 @@ impl Motion {
         self.loads.clear();
         self.loads.extend_from_slice(ramps);
         self.ramps = ramps.iter().any(|ramp| ramp.rate != 0.0);
-        self.load.fill([0.0; 4]);
-        self.load_rate.fill([0.0; 4]);
         for part in parts {
-            for (number, column) in &part.loads {
-                let Ramp { first, rate } = ramps[*number];
-                if first != 0.0 {
-                    let own = &mut self.load[part.quads()];
-                    add_scaled(first, column, own.as_flattened_mut());
-                }
-                if rate != 0.0 {
-                    let own = &mut self.load_rate[part.quads()];
-                    add_scaled(rate, column, own.as_flattened_mut());
-                }
+            exert(part, ramps, |ramp| ramp.first, &mut self.load[part.quads()]);
+            if self.ramps {
+                let own = &mut self.load_rate[part.quads()];
+                exert(part, ramps, |ramp| ramp.rate, own);
             }
         }
     }
 
     /// Decoupled states from displacements and velocities.
-    pub(super) fn take_apart(&mut self, parts: &[Part], state: &State) {
+    pub(super) fn take_apart(&mut self, parts: &[Part], whole: &Track) {
         self.states.fill([0.0; 4]);
         for part in parts {
             let range = part.coordinates.clone();
             let own = self.states[part.quads()].as_flattened_mut();
             let (per_position, per_velocity) =
                 part.inverse.as_slice().split_at(range.len() * own.len());
-            multiply_add(1.0, per_position, &state.position[range.clone()], own);
-            multiply_add(1.0, per_velocity, &state.velocity[range], own);
+            multiply_add(1.0, per_position, &whole.position[range.clone()], own);
+            multiply_add(1.0, per_velocity, &whole.velocity[range], own);
         }
     }
 
@@ -97,21 +86,6 @@ impl Motion {
             add_multiple(&mut zeros, 0.0, state);
         }
         zeros == [0.0; 4]
-    }
-
-    /// Displacements and velocities from decoupled states.
-    #[inline(always)]
-    pub(super) fn put_together(&mut self, parts: &[Part], state: &mut State) {
-        for part in parts {
-            let range = part.coordinates.clone();
-            let together = &mut self.together[..2 * range.len()];
-            together.fill(0.0);
-            let own = self.states[part.quads()].as_flattened();
-            multiply_add(1.0, part.shapes.as_slice(), own, together);
-            let (position, velocity) = together.split_at(range.len());
-            state.position[range.clone()].copy_from_slice(position);
-            state.velocity[range].copy_from_slice(velocity);
-        }
     }
 
     /// B eta + load, some seconds after the start of the call.
@@ -175,6 +149,19 @@ impl Motion {
         gain.add_others(self.derivative.as_flattened(), states);
         if self.ramps {
             ramp_gain.add_others(self.load_rate.as_flattened(), states);
+        }
+    }
+}
+
+/// Overwrites the states of a part with what a value of each load exerts on them.
+#[inline(always)]
+fn exert(part: &Part, ramps: &[Ramp], value: impl Fn(&Ramp) -> f64, target: &mut [Quad]) {
+    target.fill([0.0; 4]);
+    let columns = part.load_columns.chunks_exact(target.len().max(1));
+    for (column, &number) in columns.zip(&part.loads) {
+        let factor = value(&ramps[number]);
+        for (sum, column) in target.iter_mut().zip(column) {
+            add_multiple(sum, factor, column);
         }
     }
 }

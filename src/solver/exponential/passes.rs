@@ -7,22 +7,23 @@
 //!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
 //!   solve lines    the forces at the nodes from these, where all laws are straight lines
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
-//!   put together   [q; q'] = V eta
+//!   read off       readings of the system = rows eta
 //! ```
 //!
 //! Each is one operation for `pulp`, compiled once for every width of vectors.
 
 use pulp::{Simd, WithSimd};
 
-use super::super::{Ramp, State};
+use super::super::Ramp;
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
-use super::lanes::{Quad, add_product, sum};
+use super::lanes::{add_product, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::{Panel, Panels};
 use super::part::Part;
 use super::polynomials::NODES;
+use super::rows::Rows;
 use super::scratch::Scratch;
 use super::sight::{STILL, Sight, accumulate, accumulate_all};
 use super::turning::Turning;
@@ -47,10 +48,10 @@ pub(super) struct TakeLoads<'a> {
     pub(super) ramps: &'a [Ramp],
 }
 
-/// What the couplings see at the start of a step.
+/// What the couplings see at the start of a step and at the end of a call. Gives whether the states are numbers.
 pub(super) struct Observe<'a> {
     pub(super) panels: &'a [Panel],
-    pub(super) states: &'a [Quad],
+    pub(super) motion: &'a Motion,
     pub(super) sight: &'a mut Sight,
 }
 
@@ -85,11 +86,12 @@ pub(super) struct Move<'a> {
     pub(super) acting: &'a mut [[f64; 2]],
 }
 
-/// Displacements and velocities at the end of a call. Gives whether the states are numbers.
-pub(super) struct PutTogether<'a> {
+/// The readings of the system at the end of a call.
+pub(super) struct ReadOff<'a> {
     pub(super) parts: &'a [Part],
-    pub(super) motion: &'a mut Motion,
-    pub(super) state: &'a mut State,
+    pub(super) motion: &'a Motion,
+    pub(super) rows: &'a Rows,
+    pub(super) readings: &'a mut [f64],
 }
 
 impl WithSimd for Compute<'_> {
@@ -112,26 +114,26 @@ impl WithSimd for TakeLoads<'_> {
     }
 }
 
-impl WithSimd for PutTogether<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> bool {
-        self.motion.put_together(self.parts, self.state);
-        self.motion.is_finite()
-    }
-}
-
-impl WithSimd for Observe<'_> {
+impl WithSimd for ReadOff<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
+        let states = &self.motion.states;
+        self.rows.read(self.parts, states, self.readings);
+    }
+}
+
+impl WithSimd for Observe<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
         let [deflections, rates] = &mut self.sight.nodes[0];
         deflections.fill(0.0);
         rates.fill(0.0);
         for panel in self.panels {
-            let own = &self.states[panel.quads.clone()];
+            let own = &self.motion.states[panel.quads.clone()];
             let mut rows = panel.rows.as_slice();
             for &sensor in &panel.sensors {
                 let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
@@ -144,6 +146,7 @@ impl WithSimd for Observe<'_> {
                 rates[sensor] += sum(&rate);
             }
         }
+        self.motion.is_finite()
     }
 }
 

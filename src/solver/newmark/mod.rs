@@ -91,7 +91,7 @@ impl Newmark {
 
     /// The state with these displacements and velocities at `time`, one entry per coordinate.
     pub fn state_at(system: &System, time: f64, position: Vec<f64>, velocity: Vec<f64>) -> State {
-        system.state_at(time, position, velocity, 2)
+        system.state_at(time, Track { position, velocity }, (2, 0))
     }
 
     /// Work done since the workspace was made.
@@ -124,8 +124,9 @@ impl Newmark {
         };
         let result = self.march.advance(&mut self.pair, task, state, until);
         let result = result.and_then(|()| extrapolate(state));
-        if result.is_err() {
-            state.copy_from(&self.before);
+        match result {
+            Ok(()) => state.read_off(system),
+            Err(_) => state.copy_from(&self.before),
         }
         result
     }
@@ -242,7 +243,7 @@ impl Method for Pair {
         let _ = extrapolate(state);
         let [deflection, rate] = &mut self.sight[0];
         task.system
-            .deflections_into(&state.position, &state.velocity, deflection, rate);
+            .deflections_into(state.position(), state.velocity(), deflection, rate);
     }
 
     fn instant<'a>(&'a self, state: &'a State) -> Instant<'a> {
@@ -287,7 +288,7 @@ impl Method for Pair {
             let _ = extrapolate(state);
             let [deflection, rate] = &mut self.sight[1];
             task.system
-                .deflections_into(&state.position, &state.velocity, deflection, rate);
+                .deflections_into(state.position(), state.velocity(), deflection, rate);
             if let Some((law, time)) = self.interruption(task, state, span, pieces, endings) {
                 self.take_back(task, state, pieces);
                 return Ok(Outcome::Interrupted { law, time });
@@ -295,15 +296,8 @@ impl Method for Pair {
             self.sight.swap(0, 1);
         }
         if endings.contains(&Ending::Landing) {
-            let State {
-                position,
-                velocity,
-                tracks,
-                ..
-            } = state;
-            for track in tracks {
-                track.position.clone_from(position);
-                track.velocity.clone_from(velocity);
+            for track in &mut state.tracks {
+                track.copy_from(state.pose.whole());
             }
         }
         self.counts.steps += 1;
@@ -319,18 +313,18 @@ impl Method for Pair {
 
 /// q = (4 q_fine - q_coarse) / 3.
 fn extrapolate(state: &mut State) -> Result<(), StepError> {
-    let [coarse, fine] = state.tracks.as_slice() else {
-        return Ok(()); // a state of this method has two tracks
+    let ([coarse, fine], Some(whole)) = (state.tracks.as_slice(), state.pose.whole_mut()) else {
+        return Ok(()); // a state of this method has two tracks, and is always whole
     };
     for (result, fine, coarse) in [
-        (&mut state.position, &fine.position, &coarse.position),
-        (&mut state.velocity, &fine.velocity, &coarse.velocity),
+        (&mut whole.position, &fine.position, &coarse.position),
+        (&mut whole.velocity, &fine.velocity, &coarse.velocity),
     ] {
         for ((value, fine), coarse) in result.iter_mut().zip(fine).zip(coarse) {
             *value = fine + (fine - coarse) / 3.0;
         }
     }
-    let mut values = state.position.iter().chain(&state.velocity);
+    let mut values = whole.position.iter().chain(&whole.velocity);
     if values.all(|value| value.is_finite()) {
         Ok(())
     } else {

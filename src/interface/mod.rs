@@ -181,18 +181,22 @@ impl Variable {
 impl Quantity {
     /// The place of an input among the inputs; `None` for everything else.
     pub fn place(self) -> Option<Place> {
-        let number = |index: usize| u32::try_from(index).ok();
-        let axis_of = |axis: usize| u8::try_from(axis).ok();
-        Some(match self {
-            Quantity::Torque { torque } => Place::Torque(number(torque)?),
+        let (number, [along_x, along_y], axis): (usize, [fn(u32) -> Place; 2], usize) = match self {
+            Quantity::Torque { torque } => (torque, [Place::Torque; 2], 0),
             Quantity::BaseDisplacement { bearing, axis } => {
-                Place::Displacement(number(bearing)?, axis_of(axis)?)
+                (bearing, [Place::DisplacementX, Place::DisplacementY], axis)
             }
             Quantity::BaseVelocity { bearing, axis } => {
-                Place::Velocity(number(bearing)?, axis_of(axis)?)
+                (bearing, [Place::VelocityX, Place::VelocityY], axis)
             }
-            Quantity::PointForce { force, axis } => Place::Force(number(force)?, axis_of(axis)?),
+            Quantity::PointForce { force, axis } => (force, [Place::ForceX, Place::ForceY], axis),
             _ => return None,
+        };
+        let number = u32::try_from(number).ok()?;
+        Some(if axis == 0 {
+            along_x(number)
+        } else {
+            along_y(number)
         })
     }
 

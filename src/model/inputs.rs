@@ -34,17 +34,23 @@ pub struct BaseMotion {
     pub velocity: [f64; 2],
 }
 
-/// One of the inputs: which torque, or which bearing or force and along which axis, of which 0 is x.
+/// One of the inputs: its kind, and the number of the torque, bearing or force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// A torque.
     Torque(u32),
-    /// A displacement of the gearbox.
-    Displacement(u32, u8),
-    /// A velocity of the gearbox.
-    Velocity(u32, u8),
-    /// A force on the housing.
-    Force(u32, u8),
+    /// Displacement of the gearbox in x.
+    DisplacementX(u32),
+    /// Displacement of the gearbox in y.
+    DisplacementY(u32),
+    /// Velocity of the gearbox in x.
+    VelocityX(u32),
+    /// Velocity of the gearbox in y.
+    VelocityY(u32),
+    /// A force on the housing in x.
+    ForceX(u32),
+    /// A force on the housing in y.
+    ForceY(u32),
 }
 
 /// The inputs while a call lasts: first + (t - since) rate.
@@ -73,13 +79,12 @@ impl Inputs {
     pub fn at(&self, place: Place) -> f64 {
         match place {
             Place::Torque(torque) => self.torques[torque as usize],
-            Place::Displacement(bearing, axis) => {
-                self.bases[bearing as usize].displacement[usize::from(axis)]
-            }
-            Place::Velocity(bearing, axis) => {
-                self.bases[bearing as usize].velocity[usize::from(axis)]
-            }
-            Place::Force(force, axis) => self.forces[force as usize][usize::from(axis)],
+            Place::DisplacementX(bearing) => self.bases[bearing as usize].displacement[0],
+            Place::DisplacementY(bearing) => self.bases[bearing as usize].displacement[1],
+            Place::VelocityX(bearing) => self.bases[bearing as usize].velocity[0],
+            Place::VelocityY(bearing) => self.bases[bearing as usize].velocity[1],
+            Place::ForceX(force) => self.forces[force as usize][0],
+            Place::ForceY(force) => self.forces[force as usize][1],
         }
     }
 
@@ -88,23 +93,15 @@ impl Inputs {
     pub fn put(&mut self, values: impl Iterator<Item = (Place, f64)>) {
         let torques = self.torques.as_mut_slice();
         let (bases, forces) = (self.bases.as_mut_slice(), self.forces.as_mut_slice());
-        for (place, value) in values {
-            let target = match place {
-                Place::Torque(torque) => torques.get_mut(torque as usize),
-                Place::Displacement(bearing, axis) => bases
-                    .get_mut(bearing as usize)
-                    .and_then(|base| base.displacement.get_mut(usize::from(axis))),
-                Place::Velocity(bearing, axis) => bases
-                    .get_mut(bearing as usize)
-                    .and_then(|base| base.velocity.get_mut(usize::from(axis))),
-                Place::Force(force, axis) => forces
-                    .get_mut(force as usize)
-                    .and_then(|force| force.get_mut(usize::from(axis))),
-            };
-            if let Some(target) = target {
-                *target = value;
-            }
-        }
+        values.for_each(|(place, value)| match place {
+            Place::Torque(torque) => torques[torque as usize] = value,
+            Place::DisplacementX(bearing) => bases[bearing as usize].displacement[0] = value,
+            Place::DisplacementY(bearing) => bases[bearing as usize].displacement[1] = value,
+            Place::VelocityX(bearing) => bases[bearing as usize].velocity[0] = value,
+            Place::VelocityY(bearing) => bases[bearing as usize].velocity[1] = value,
+            Place::ForceX(force) => forces[force as usize][0] = value,
+            Place::ForceY(force) => forces[force as usize][1] = value,
+        });
     }
 
     /// Takes over the values of others of the same shape; allocates nothing.
@@ -148,27 +145,26 @@ impl Inputs {
 
     /// Puts down the values along the columns of [`columns`]. Where bearings follow a free speed, the motion of the gearbox
     /// acts through [`super::Excitation`] instead.
-    fn exert(&self, model: &ModalModel, mut put: impl FnMut(usize, f64)) {
-        for (number, &torque) in self.torques.iter().enumerate() {
-            put(number, torque);
+    fn exert(&self, model: &ModalModel, loads: &mut [Ramp], put: impl Fn(&mut Ramp, f64)) {
+        let (of_torques, others) = loads.split_at_mut(self.torques.len());
+        let (of_bearings, of_forces) = others.split_at_mut(2 * self.bases.len());
+        for (load, &torque) in of_torques.iter_mut().zip(&self.torques) {
+            put(load, torque);
         }
-        let mut number = self.torques.len();
-        let mut bases = self.bases.iter();
+        let mut pairs = of_bearings.as_chunks_mut().0.iter_mut().zip(&self.bases);
         for rotor in &model.rotors {
-            for (bearing, base) in rotor.bearings.iter().zip(&mut bases) {
-                let [x, y] = if bearing.follows_speed {
+            for (bearing, ([x, y], base)) in rotor.bearings.iter().zip(&mut pairs) {
+                let force = if bearing.follows_speed {
                     [0.0; 2]
                 } else {
                     bearing.base_force(base)
                 };
-                put(number, x);
-                put(number + 1, y);
-                number += 2;
+                put(x, force[0]);
+                put(y, force[1]);
             }
         }
-        for &force in self.forces.iter().flatten() {
-            put(number, force);
-            number += 1;
+        for (load, &force) in of_forces.iter_mut().zip(self.forces.as_flattened()) {
+            put(load, force);
         }
     }
 
@@ -196,11 +192,10 @@ impl Inputs {
 impl Course<'_> {
     /// Overwrites `loads` with what the inputs exert along [`crate::solver::System::loads`].
     pub fn loads_into(&self, model: &ModalModel, loads: &mut [Ramp]) {
-        self.first.exert(model, |number, first| {
-            loads[number] = Ramp { first, rate: 0.0 };
-        });
+        let held = |load: &mut Ramp, first: f64| *load = Ramp { first, rate: 0.0 };
+        self.first.exert(model, loads, held);
         if let Some(rate) = self.rate {
-            rate.exert(model, |number, rate| loads[number].rate = rate);
+            rate.exert(model, loads, |load, rate| load.rate = rate);
         }
     }
 

@@ -1,7 +1,7 @@
-//! Numbers that are read from the states along rows.
+//! Numbers that are read from the states along rows, four side by side.
 
 use super::super::Row;
-use super::lanes::{Quad, add_product, sum};
+use super::lanes::{Quad, add_multiple};
 use super::part::Part;
 use crate::linalg::dot;
 
@@ -10,7 +10,7 @@ use crate::linalg::dot;
 pub(super) struct Rows {
     /// For every part the numbers that it contributes to.
     targets: Vec<Vec<usize>>,
-    /// What a state contributes, part by part and target by target.
+    /// What every state contributes to four of these; part by part, four by four, then state by state.
     entries: Vec<Quad>,
 }
 
@@ -19,19 +19,21 @@ impl Rows {
     pub(super) fn over(parts: &[Part], numbers: &[[&Row; 2]]) -> Rows {
         let (mut targets, mut entries) = (Vec::new(), Vec::new());
         for (block, part) in parts.iter().enumerate() {
-            let n = part.coordinates.len();
-            let mut own = Vec::new();
-            for (number, rows) in numbers.iter().enumerate() {
-                let [position, velocity] = rows.map(|row| row.in_block(block));
-                if position.is_none() && velocity.is_none() {
-                    continue;
-                }
-                let both = [position, velocity].map(|row| row.unwrap_or_else(|| vec![0.0; n]));
-                let both = both.concat();
-                let entry = |column: usize| dot(part.shapes.column(column).as_slice(), &both);
-                let row: Vec<f64> = (0..part.len()).map(entry).collect();
-                entries.extend(row.as_chunks().0);
-                own.push(number);
+            let per_coordinate = |[position, velocity]: &[&Row; 2]| -> Option<Vec<f64>> {
+                let both = [position.in_block(block), velocity.in_block(block)];
+                let zeros = || vec![0.0; part.coordinates.len()];
+                let any = both.iter().any(Option::is_some);
+                any.then(|| both.map(|row| row.unwrap_or_else(zeros)).concat())
+            };
+            let own = numbers.iter().enumerate();
+            let (own, rows): (Vec<usize>, Vec<Vec<f64>>) = own
+                .filter_map(|(number, rows)| Some((number, per_coordinate(rows)?)))
+                .unzip();
+            for four in rows.chunks(4) {
+                entries.extend(part.shapes.column_iter().map(|shape| {
+                    let entry = |row: &Vec<f64>| dot(row, shape.as_slice());
+                    core::array::from_fn(|lane| four.get(lane).map_or(0.0, entry))
+                }));
             }
             targets.push(own);
         }
@@ -45,14 +47,20 @@ impl Rows {
         let mut entries = self.entries.as_slice();
         for (part, targets) in parts.iter().zip(&self.targets) {
             let own = &states[part.quads()];
-            for &target in targets {
-                let (row, others) = entries.split_at(own.len());
+            for four in targets.chunks(4) {
+                let (rows, others) = entries.split_at(part.len());
                 entries = others;
-                let mut products = [0.0; 4];
-                for (entry, state) in row.iter().zip(own) {
-                    add_product(&mut products, entry, state);
+                // Two sums side by side, so that one addition need not wait for the last.
+                let (mut even, mut odd) = ([0.0; 4], [0.0; 4]);
+                for ([a, b, c, d], rows) in own.iter().zip(rows.as_chunks::<4>().0) {
+                    add_multiple(&mut even, *a, &rows[0]);
+                    add_multiple(&mut odd, *b, &rows[1]);
+                    add_multiple(&mut even, *c, &rows[2]);
+                    add_multiple(&mut odd, *d, &rows[3]);
                 }
-                numbers[target] += sum(&products);
+                for (lane, &number) in four.iter().enumerate() {
+                    numbers[number] += even[lane] + odd[lane];
+                }
             }
         }
     }

@@ -181,23 +181,21 @@ impl Variable {
 impl Quantity {
     /// The place of an input among the inputs; `None` for everything else.
     pub fn place(self) -> Option<Place> {
-        let (number, [along_x, along_y], axis): (usize, [fn(u32) -> Place; 2], usize) = match self {
-            Quantity::Torque { torque } => (torque, [Place::Torque; 2], 0),
+        let at = |index: usize, axis: usize, [x, y]: [fn(u32) -> Place; 2]| {
+            let number = u32::try_from(index).ok()?;
+            Some(if axis == 0 { x(number) } else { y(number) })
+        };
+        match self {
+            Quantity::Torque { torque } => at(torque, 0, [Place::Torque; 2]),
             Quantity::BaseDisplacement { bearing, axis } => {
-                (bearing, [Place::DisplacementX, Place::DisplacementY], axis)
+                at(bearing, axis, [Place::DisplacementX, Place::DisplacementY])
             }
             Quantity::BaseVelocity { bearing, axis } => {
-                (bearing, [Place::VelocityX, Place::VelocityY], axis)
+                at(bearing, axis, [Place::VelocityX, Place::VelocityY])
             }
-            Quantity::PointForce { force, axis } => (force, [Place::ForceX, Place::ForceY], axis),
-            _ => return None,
-        };
-        let number = u32::try_from(number).ok()?;
-        Some(if axis == 0 {
-            along_x(number)
-        } else {
-            along_y(number)
-        })
+            Quantity::PointForce { force, axis } => at(force, axis, [Place::ForceX, Place::ForceY]),
+            _ => None,
+        }
     }
 
     /// Whether it is set from outside or follows from such parameters alone, without a model.

@@ -3,7 +3,9 @@
 //! Almost all blocks are pairs (a vibration) or single (an overdamped motion). Pairs stand at even places, so that row i of
 //! them needs x_i and the neighbour x_(i^1) only, and the product runs through in one loop.
 
-use super::lanes::{Quad, add_product, neighbours};
+use pulp::Simd;
+
+use super::lanes::{Quad, add_products, neighbours};
 use super::part::Part;
 use crate::linalg::{Group, multiply_add};
 
@@ -100,7 +102,6 @@ impl BlockDiagonal {
 
 /// y += A x in one quad, without larger blocks.
 #[inline(always)]
-pub(super) fn add_pairs([own, across]: &Pairs, x: &Quad, y: &mut Quad) {
-    add_product(y, own, x);
-    add_product(y, across, &neighbours(x));
+pub(super) fn add_pairs<S: Simd>(simd: S, [own, across]: &Pairs, x: &Quad, y: &mut Quad) {
+    add_products(simd, [own, across], [x, &neighbours(x)], y);
 }

@@ -33,9 +33,10 @@ pub(super) struct Coefficients {
     pub(super) free: Vec<Readings>,
     /// The same per change of the load.
     pub(super) ramp: Vec<Readings>,
-    /// What the end takes from what acts on a part: per part and quad of states -f_j of every node of every actuator, then the
-    /// responses to the cosine and to the sine of every harmonic.
-    pub(super) columns: Vec<Quad>,
+    /// What the end takes from the forces at the nodes, -f_j: per part, actuator and quad of states.
+    pub(super) pushes: Vec<[Quad; NODES]>,
+    /// What it takes from cosine and sine of the angle of a harmonic: per part, harmonic and quad of states.
+    pub(super) responses: Vec<[Quad; 2]>,
     /// What sensors read per cosine and sine of the angle of a harmonic: per panel, sensor and harmonic.
     pub(super) turning: Vec<[Readings; 2]>,
     /// e^(i w h) of every harmonic.
@@ -54,13 +55,15 @@ impl Coefficients {
         exchange: &Exchange,
         harmonics: usize,
     ) -> Coefficients {
-        let columns = parts.iter().map(|part| part.columns() * part.quads().len());
+        let pushes = |part: &Part| part.actuators.len() * part.quads().len();
+        let responses = |part: &Part| part.harmonics.len() * part.quads().len();
         Coefficients {
             gain: BlockDiagonal::zero(parts),
             ramp_gain: BlockDiagonal::zero(parts),
             free: vec![STILL; panels.states],
             ramp: vec![STILL; panels.states],
-            columns: vec![[0.0; 4]; columns.sum()],
+            pushes: vec![[[0.0; 4]; NODES]; parts.iter().map(pushes).sum()],
+            responses: vec![[[0.0; 4]; 2]; parts.iter().map(responses).sum()],
             turning: vec![[STILL; 2]; panels.harmonics],
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
@@ -76,7 +79,8 @@ impl Coefficients {
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
         let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Readings>();
-        let numbers = 4 * self.columns.len() + 2 * self.rotations.len();
+        let columns = 4 * NODES * self.pushes.len() + 8 * self.responses.len();
+        let numbers = columns + 2 * self.rotations.len();
         let matrices = self.gain.bytes() + self.ramp_gain.bytes();
         readings + numbers * size_of::<f64>() + matrices + self.influences.bytes()
     }
@@ -93,7 +97,7 @@ impl Coefficients {
         self.influences.clear();
         scratch.turn(frequencies, h);
         self.rotations.copy_from_slice(&scratch.turned[END]);
-        let mut columns = 0;
+        let (mut pushes, mut responses) = (0, 0);
         for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
             scratch.clear(part);
             for group in &part.groups {
@@ -105,9 +109,13 @@ impl Coefficients {
                 };
                 self.follow(share, frequencies, scratch);
             }
-            let own = &mut self.columns[columns..][..part.columns() * part.quads().len()];
-            combine_columns(part, scratch, own);
-            columns += own.len();
+            let quads = part.quads().len();
+            let own = &mut self.pushes[pushes..][..part.actuators.len() * quads];
+            combine_pushes(scratch, own);
+            pushes += own.len();
+            let own = &mut self.responses[responses..][..part.harmonics.len() * quads];
+            combine_responses(scratch, own);
+            responses += own.len();
             add_influences(part, number, (exchange, &mut self.influences), scratch);
             self.compute_turning(part, place, scratch);
         }
@@ -257,24 +265,27 @@ impl Coefficients {
     }
 }
 
-/// The columns of a part, from moments and responses at the end.
+/// What a part takes from the forces at the nodes, from its moments at the end.
 #[inline(always)]
-fn combine_columns(part: &Part, scratch: &Scratch, own: &mut [Quad]) {
-    let (states, width) = (part.len(), part.columns());
-    for state in 0..states {
-        let (row, lane) = (&mut own[state / 4 * width..][..width], state % 4);
-        let (forces, angles) = row.split_at_mut(NODES * part.actuators.len());
-        for (actuator, columns) in forces.chunks_exact_mut(NODES).enumerate() {
-            let moments = &scratch.moments[actuator * states + state];
-            for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
-                let terms = l.iter().zip(moments).map(|(l, moment)| l * moment[END]);
-                column[lane] = -terms.sum::<f64>();
+fn combine_pushes(scratch: &Scratch, own: &mut [[Quad; NODES]]) {
+    for (columns, moments) in own.iter_mut().zip(scratch.moments.as_chunks::<4>().0) {
+        for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
+            *column = [0.0; 4];
+            for (k, l) in l.iter().enumerate() {
+                subtract_multiple(column, *l, &moments.each_ref().map(|moment| moment[k][END]));
             }
         }
-        for (number, columns) in angles.chunks_exact_mut(2).enumerate() {
-            let [re, im] = &scratch.responses[number * states + state];
-            (columns[0][lane], columns[1][lane]) = (re[END], -im[END]);
-        }
+    }
+}
+
+/// What a part takes from the harmonics, from its responses at the end.
+#[inline(always)]
+fn combine_responses(scratch: &Scratch, own: &mut [[Quad; 2]]) {
+    for (columns, responses) in own.iter_mut().zip(scratch.responses.as_chunks::<4>().0) {
+        *columns = [
+            responses.each_ref().map(|[re, _]| re[END]),
+            responses.each_ref().map(|[_, im]| -im[END]),
+        ];
     }
 }
 

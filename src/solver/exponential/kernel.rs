@@ -53,8 +53,6 @@ pub(super) struct Kernel {
     /// Where lengths were found last, by some of their bits.
     found: [u8; LENGTHS_TOLD_APART],
     scratch: Scratch,
-    /// What acts on one part in a step.
-    acting: Vec<[f64; 2]>,
     pub(super) sight: Sight,
     /// Whether the couplings have seen the motion as it is.
     is_seen: bool,
@@ -85,7 +83,6 @@ impl Kernel {
             next_length: 0,
             found: [0; LENGTHS_TOLD_APART],
             scratch: Scratch::new(&parts, harmonics.len()),
-            acting: vec![[0.0; 2]; parts.iter().map(Part::columns).max().unwrap_or(0) / 2],
             sight: Sight::new(couplings),
             is_seen: false,
             nodes: Nodes::new(couplings, &exchange),
@@ -222,7 +219,6 @@ impl Kernel {
             motion: &mut self.motion,
             sight: &self.sight,
             turning: &state.turning,
-            acting: &mut self.acting,
         });
         let (sight, coefficients) = (&mut self.sight, &self.lengths[index]);
         let excess = (span.end - span.start) - self.steps[index];

@@ -1,9 +1,11 @@
 //! The motion of all parts in decoupled states.
 
+use pulp::Simd;
+
 use super::super::Ramp;
 use super::super::state::Track;
 use super::block_diagonal::{BlockDiagonal, add_pairs};
-use super::lanes::{Quad, add_multiple};
+use super::lanes::{Quad, add_multiple, add_products};
 use super::part::Part;
 use crate::linalg::multiply_add;
 
@@ -90,11 +92,11 @@ impl Motion {
 
     /// B eta + load, some seconds after the start of the call.
     #[inline(always)]
-    pub(super) fn differentiate(&mut self, elapsed: f64) {
+    pub(super) fn differentiate<S: Simd>(&mut self, simd: S, elapsed: f64) {
         let quads = self.derivative.iter_mut().zip(&self.states).zip(&self.load);
         for (((derivative, state), load), pairs) in quads.zip(&self.dynamics.pairs) {
             let mut sum = *load;
-            add_pairs(pairs, state, &mut sum);
+            add_pairs(simd, pairs, state, &mut sum);
             *derivative = sum;
         }
         if self.ramps {
@@ -107,39 +109,38 @@ impl Motion {
             .add_others(states, self.derivative.as_flattened_mut());
     }
 
-    /// The step of one part: eta + h phi_1 (B eta + load) + h^2 phi_2 load' + columns times what acts, without the larger blocks of
-    /// both matrices.
+    /// eta + h phi_1 (B eta + load) + h^2 phi_2 load', without the larger blocks of both matrices.
     #[inline(always)]
-    pub(super) fn advance(
+    pub(super) fn advance<S: Simd>(
         &mut self,
-        part: &Part,
-        [gain, ramp_gain]: [&BlockDiagonal; 2],
-        columns: &[Quad],
-        acting: &[[f64; 2]],
+        simd: S,
+        gain: &BlockDiagonal,
+        ramp_gain: &BlockDiagonal,
     ) {
-        let range = part.quads();
-        let states = self.states[range.clone()].iter_mut();
-        let derivatives = &self.derivative[range.clone()];
-        let gains = &gain.pairs[range.clone()];
-        let mut columns = columns;
-        for ((state, derivative), gain) in states.zip(derivatives).zip(gains) {
-            // Two sums, so that one addition need not wait for the last.
-            let (mut one, mut two) = (*state, [0.0; 4]);
-            add_pairs(gain, derivative, &mut two);
-            let (own, others) = columns.split_at(2 * acting.len());
-            for (columns, factors) in own.as_chunks::<2>().0.iter().zip(acting) {
-                add_multiple(&mut one, factors[0], &columns[0]);
-                add_multiple(&mut two, factors[1], &columns[1]);
-            }
-            columns = others;
-            *state = core::array::from_fn(|i| one[i] + two[i]);
+        let derivatives = self.derivative.iter().zip(&gain.pairs);
+        for (state, (derivative, gain)) in self.states.iter_mut().zip(derivatives) {
+            add_pairs(simd, gain, derivative, state);
         }
         if self.ramps {
-            let states = self.states[range.clone()].iter_mut();
-            let rates = &self.load_rate[range.clone()];
-            for ((state, rate), gain) in states.zip(rates).zip(&ramp_gain.pairs[range]) {
-                add_pairs(gain, rate, state);
+            let rates = self.load_rate.iter().zip(&ramp_gain.pairs);
+            for (state, (rate, gain)) in self.states.iter_mut().zip(rates) {
+                add_pairs(simd, gain, rate, state);
             }
+        }
+    }
+
+    /// The states of a part grow by columns times factors.
+    #[inline(always)]
+    pub(super) fn push<S: Simd, const N: usize>(
+        &mut self,
+        simd: S,
+        part: &Part,
+        columns: &[[Quad; N]],
+        factors: &[f64; N],
+    ) {
+        let factors = factors.map(|factor| [factor; 4]);
+        for (state, columns) in self.states[part.quads()].iter_mut().zip(columns) {
+            add_products(simd, factors.each_ref(), columns.each_ref(), state);
         }
     }
 

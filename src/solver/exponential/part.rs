@@ -13,7 +13,6 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::super::{Block, Harmonic, System};
 use super::block_diagonal::rank;
 use super::lanes::{Quad, padded};
-use super::polynomials::NODES;
 use crate::linalg::{Decoupling, Group, decouple};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
@@ -129,11 +128,6 @@ impl Part {
     /// Its states among those of all parts, in fours.
     pub(super) fn quads(&self) -> core::ops::Range<usize> {
         self.first / 4..(self.first + self.len()) / 4
-    }
-
-    /// Number of things that act on it in a step: the forces at every node, and cosine and sine of the harmonics.
-    pub(super) fn columns(&self) -> usize {
-        NODES * self.actuators.len() + 2 * self.harmonics.len()
     }
 }
 

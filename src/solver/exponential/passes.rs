@@ -22,7 +22,6 @@ use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::{Panel, Panels};
 use super::part::Part;
-use super::polynomials::NODES;
 use super::rows::Rows;
 use super::scratch::Scratch;
 use super::sight::{STILL, Sight, accumulate, accumulate_all};
@@ -82,8 +81,6 @@ pub(super) struct Move<'a> {
     pub(super) motion: &'a mut Motion,
     pub(super) sight: &'a Sight,
     pub(super) turning: &'a Turning,
-    /// Room for what acts on one part.
-    pub(super) acting: &'a mut [[f64; 2]],
 }
 
 /// The readings of the system at the end of a call.
@@ -152,9 +149,9 @@ impl WithSimd for Observe<'_> {
 
 impl LookAhead<'_> {
     #[inline(always)]
-    fn look(&mut self) {
+    fn look<S: Simd>(&mut self, simd: S) {
         let (motion, sight) = (&mut *self.motion, &mut *self.sight);
-        motion.differentiate(self.elapsed);
+        motion.differentiate(simd, self.elapsed);
         sight.free.fill(STILL);
         let Coefficients {
             free,
@@ -196,8 +193,8 @@ impl WithSimd for LookAhead<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
-        self.look();
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        self.look(simd);
     }
 }
 
@@ -205,8 +202,8 @@ impl WithSimd for SolveLines<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) -> bool {
-        self.ahead.look();
+    fn with_simd<S: Simd>(mut self, simd: S) -> bool {
+        self.ahead.look(simd);
         let between = (self.exchange, &self.ahead.coefficients.influences);
         self.nodes.solve(between, self.asked, self.ahead.sight)
     }
@@ -216,27 +213,23 @@ impl WithSimd for Move<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Coefficients {
-            gain,
-            ramp_gain,
-            columns,
-            ..
-        } = self.coefficients;
-        let mut columns = columns.as_slice();
+    fn with_simd<S: Simd>(self, simd: S) {
+        let (coefficients, motion) = (self.coefficients, self.motion);
+        let (gain, ramp_gain) = (&coefficients.gain, &coefficients.ramp_gain);
+        motion.advance(simd, gain, ramp_gain);
+        motion.advance_others(gain, ramp_gain);
+        let mut pushes = coefficients.pushes.as_slice();
+        let mut responses = coefficients.responses.as_slice();
         for part in self.parts {
-            let acting = &mut self.acting[..part.columns() / 2];
-            let (forces, angles) = acting.split_at_mut(NODES / 2 * part.actuators.len());
-            for (target, &actuator) in forces.as_chunks_mut().0.iter_mut().zip(&part.actuators) {
-                let [a, b, c, d] = self.sight.forces[actuator];
-                *target = [[a, b], [c, d]];
+            let quads = part.quads().len();
+            for &actuator in &part.actuators {
+                let forces = &self.sight.forces[actuator];
+                motion.push(simd, part, take(&mut pushes, quads), forces);
             }
-            for (target, (harmonic, _)) in angles.iter_mut().zip(&part.harmonics) {
-                *target = self.turning.angles[*harmonic];
+            for (harmonic, _) in &part.harmonics {
+                let angle = &self.turning.angles[*harmonic];
+                motion.push(simd, part, take(&mut responses, quads), angle);
             }
-            let own = take(&mut columns, part.columns() * part.quads().len());
-            self.motion.advance(part, [gain, ramp_gain], own, acting);
         }
-        self.motion.advance_others(gain, ramp_gain);
     }
 }

@@ -18,6 +18,9 @@ pub struct Simulation {
     model: ModalModel,
     state: State,
     inputs: Inputs,
+    /// Room for [`Simulation::carried`] and how it changes per second.
+    carried: Inputs,
+    carried_rate: Inputs,
     /// What the inputs exert in a step.
     loads: Vec<Ramp>,
     solver: Integrator,
@@ -46,22 +49,25 @@ impl Simulation {
         };
         let mut simulation = Simulation::at_rest(model, inputs, settings);
         let velocity = simulation.model.rigid_velocity();
-        let system = &simulation.model.system;
+        let system = simulation.model.system_in_steps();
         simulation.state = simulation.solver.state_at(system, time, position, velocity);
         Ok(simulation)
     }
 
     /// At time 0 without deformation and rotation, for a solution to be put in: see [`Simulation::restore`].
     pub fn at_rest(model: ModalModel, inputs: Inputs, settings: &config::Simulation) -> Simulation {
+        let system = model.system_in_steps();
         let solver = match settings.solver {
-            SolverChoice::Exponential => Integrator::exponential(&model.system, model.harmonics()),
-            SolverChoice::Newmark => Integrator::newmark(&model.system),
+            SolverChoice::Exponential => Integrator::exponential(system, model.harmonics()),
+            SolverChoice::Newmark => Integrator::newmark(system),
         };
-        let zeros = || vec![0.0; model.system.size];
-        let state = solver.state_at(&model.system, 0.0, zeros(), zeros());
+        let zeros = || vec![0.0; system.size];
+        let state = solver.state_at(system, 0.0, zeros(), zeros());
         Simulation {
-            loads: vec![Ramp::default(); model.system.loads.len()],
+            loads: vec![Ramp::default(); system.loads.len()],
             state,
+            carried: inputs.clone(),
+            carried_rate: inputs.clone(),
             inputs,
             solver,
             tolerance: settings.tolerance,
@@ -75,23 +81,66 @@ impl Simulation {
     }
 
     /// Integrates to exactly `time` with the inputs changing by `rate` per second, where given, from their values now to those
-    /// that they have afterwards. After an error the simulation is as before.
+    /// that they have afterwards; forces of known bearings begin so and follow the motion. After an error the simulation is as
+    /// before.
     pub fn advance_along(&mut self, time: f64, rate: Option<&Inputs>) -> Result<(), StepError> {
+        let Some(known) = rate.filter(|_| self.model.knows_bearings()) else {
+            return self.advance_carrying(time, rate);
+        };
+        let mut carried_rate = core::mem::take(&mut self.carried_rate);
+        carried_rate.overwrite(known);
+        self.motion().add_known_force_rates(1.0, &mut carried_rate);
+        let result = self.advance_carrying(time, Some(&carried_rate));
+        self.carried_rate = carried_rate;
+        result
+    }
+
+    /// The inputs less what the motion now makes of the forces of known bearings: what a step holds, or takes along a rate.
+    pub fn carried(&mut self) -> &Inputs {
+        if !self.model.knows_bearings() {
+            return &self.inputs;
+        }
+        let mut carried = core::mem::take(&mut self.carried);
+        carried.overwrite(&self.inputs);
+        self.motion().add_known_forces(1.0, &mut carried);
+        self.carried = carried;
+        &self.carried
+    }
+
+    /// The same as [`Simulation::advance_along`] with a rate of [`Simulation::carried`].
+    pub fn advance_carrying(&mut self, time: f64, rate: Option<&Inputs>) -> Result<(), StepError> {
         let since = self.state.time;
+        self.carried();
+        let knows_bearings = self.model.knows_bearings();
         let course = Course {
-            first: &self.inputs,
+            first: if knows_bearings {
+                &self.carried
+            } else {
+                &self.inputs
+            },
             rate,
             since,
         };
         course.loads_into(&self.model, &mut self.loads);
         let excitation = Excitation::new(&self.model, course, &self.loads);
-        let system = &self.model.system;
+        let system = self.model.system_in_steps();
         self.solver
             .advance_to(system, &excitation, &mut self.state, time, self.tolerance)?;
-        if let Some(rate) = rate {
-            self.inputs.add_change(rate, time - since);
+        let mut inputs = core::mem::take(&mut self.inputs);
+        if knows_bearings {
+            inputs.overwrite(&self.carried);
+            self.motion().add_known_forces(-1.0, &mut inputs);
         }
+        if let Some(rate) = rate {
+            inputs.add_change(rate, time - since);
+        }
+        self.inputs = inputs;
         Ok(())
+    }
+
+    /// [`Simulation::carried`] at the start of the last step; `None` where no bearings are known, and it was the inputs.
+    pub fn carried_last(&self) -> Option<&Inputs> {
+        self.model.knows_bearings().then_some(&self.carried)
     }
 
     /// The inputs that hold from now on, to be changed.

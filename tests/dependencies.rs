@@ -20,9 +20,9 @@ fn rolling() -> String {
     model_file("rolling.toml")
 }
 
-/// A housing alone, and a train in it with a bearing on the ground: forces act on a foot of it.
-fn housings() -> [String; 2] {
-    ["box.toml", "boxed.toml"].map(model_file)
+/// A housing alone, one that knows bearings, and a train in it with a bearing on the ground: forces act on a foot of it.
+fn housings() -> [String; 3] {
+    ["box.toml", "known_box.toml", "boxed.toml"].map(model_file)
 }
 
 fn starting(text: &str) -> (Slave, Interface, Config) {

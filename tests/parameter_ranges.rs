@@ -6,8 +6,8 @@ use geartrain::config::read;
 use geartrain::description::model_description;
 use geartrain::interface::{Interface, Parameter, Quantity};
 use geartrain::model::ModalModel;
-use geartrain::train::{load, no_files, validate};
-use support::three_stage;
+use geartrain::train::{load_beside, validate};
+use support::{beside, three_stage};
 
 /// Models that between them have every parameter.
 fn models() -> Vec<String> {
@@ -17,14 +17,20 @@ fn models() -> Vec<String> {
     };
     let housing = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/gearbox_housing.toml");
     let housing = std::fs::read_to_string(housing).unwrap();
-    vec![three_stage(), file("rattle"), file("rolling"), housing]
+    vec![
+        three_stage(),
+        file("rattle"),
+        file("rolling"),
+        housing,
+        file("known_box"),
+    ]
 }
 
 #[test]
 fn the_ends_of_a_range_are_valid_and_what_lies_beyond_is_refused() {
     let mut bounded = 0;
     for text in models() {
-        let loaded = load(&text).unwrap();
+        let loaded = load_beside(&text, &beside).unwrap();
         let model = ModalModel::assemble(&loaded.train, None).unwrap();
         let interface = Interface::of(&loaded.config, &loaded.train, &model);
         for variable in &interface.variables {
@@ -32,7 +38,7 @@ fn the_ends_of_a_range_are_valid_and_what_lies_beyond_is_refused() {
                 continue;
             };
             let valid = |value: f64| {
-                let mut config = read(&text, &no_files).config.unwrap();
+                let mut config = read(&text, &beside).config.unwrap();
                 *parameter.slot(&mut config) = value;
                 // Rotors meshed with the first one follow in the slave; here they would only contradict it.
                 if matches!(parameter, Parameter::MeanSpeed { .. }) {
@@ -74,7 +80,7 @@ fn attribute(xml: &str, variable: &str, name: &str) -> Option<f64> {
 
 #[test]
 fn nominal_values_are_the_sizes_of_the_static_solution() {
-    let loaded = load(&three_stage()).unwrap();
+    let loaded = load_beside(&three_stage(), &beside).unwrap();
     let model = ModalModel::assemble(&loaded.train, None).unwrap();
     let interface = Interface::of(&loaded.config, &loaded.train, &model);
     let xml = model_description(&loaded.config, &loaded.train, &model, &interface);

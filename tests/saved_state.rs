@@ -4,8 +4,9 @@
 
 mod support;
 
+use geartrain::interface::Causality;
 use geartrain::slave::{Experiment, SavedState, Slave};
-use support::slave::{born, read, stepping};
+use support::slave::{born, read, references, stepping};
 use support::{case_four, model_file, three_stage};
 
 /// Contact losses, back flanks, changing speed: every kind of memory a solution can have.
@@ -23,20 +24,35 @@ fn newmark(text: &str) -> String {
     text.replace("[simulation]", "[simulation]\nsolver = \"newmark\"")
 }
 
-fn models() -> [String; 7] {
+fn models() -> [String; 9] {
     [
         case_four(),
         free_and_rattling(),
         newmark(&case_four()),
         newmark(&free_and_rattling()),
         model_file("box.toml"),
+        model_file("known_box.toml"),
+        model_file("known_box.toml").replace(
+            "known_bearings",
+            "input_extrapolation = true\nknown_bearings",
+        ),
         model_file("boxed.toml"),
         model_file("boxed_journal.toml"),
     ]
 }
 
+/// A slave in step mode; a housing is pushed, so that it moves.
 fn running(text: &str) -> Slave {
-    stepping(text, 1e-4).0
+    let (mut slave, interface) = stepping(text, 1e-4);
+    let pushed = |input: &u32| {
+        interface.variables[*input as usize]
+            .name
+            .ends_with(".force_x")
+    };
+    let mut forces = references(&interface, Causality::Input);
+    forces.retain(pushed);
+    slave.set_real(&forces, &vec![70.0; forces.len()]).unwrap();
+    slave
 }
 
 /// The bits of all variables after each of the next steps.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Place;
+use super::{Place, Planar};
 
 /// What a model file describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,6 +37,33 @@ pub struct HousingPoint {
     pub name: String,
     /// Whether it is only looked at: no force acts there.
     pub observe: bool,
+    /// What is known of the bearing that stands on it in another model.
+    pub bearing: Option<KnownBearing>,
+}
+
+/// `stiffness` and `damping` of a point: the linear spring and damper between it and what exerts the force on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct KnownBearing {
+    /// Stiffness [N/m]; direct terms >= 0.
+    pub stiffness: Planar,
+    /// Damping [N s/m]; direct terms >= 0.
+    pub damping: Planar,
+}
+
+impl KnownBearing {
+    /// No spring and no damper.
+    pub const NONE: KnownBearing = KnownBearing {
+        stiffness: Planar::ZERO,
+        damping: Planar::ZERO,
+    };
+
+    /// A part of the bearing.
+    pub fn times(&self, share: f64) -> KnownBearing {
+        KnownBearing {
+            stiffness: self.stiffness.times(share),
+            damping: self.damping.times(share),
+        }
+    }
 }
 
 /// `[[mode]]`: a natural vibration of the structure, mass normalised.

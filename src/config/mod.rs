@@ -24,7 +24,7 @@ mod tooth_geometry;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-pub use housing::{Connection, Housing, HousingMode, HousingPoint, Kind};
+pub use housing::{Connection, Housing, HousingMode, HousingPoint, Kind, KnownBearing};
 pub use mesh::{Contact, ErrorHarmonic, Flank, Mesh, MeshDamping, MeshStiffness, TorqueCoupling};
 pub use place::{Place, Problem};
 pub use read::{Files, Reading, read};
@@ -74,6 +74,9 @@ pub struct Simulation {
     pub tolerance: f64,
     /// How far inputs are continued through steps for which the master gives no derivatives: 1 wholly, 0 not at all. [0, 1]
     pub input_extrapolation: f64,
+    /// How far forces on a housing follow its motion within a step through the bearings that its points name: 1 wholly, 0 not at
+    /// all. [0, 1]
+    pub known_bearings: f64,
     /// Default end of a simulation [s]. > 0
     pub stop_time: f64,
     /// Default communication step [s]. > 0

@@ -127,6 +127,16 @@ impl Planar {
         yx: 0.0,
         yy: 0.0,
     };
+
+    /// A multiple of all coefficients.
+    pub fn times(&self, factor: f64) -> Planar {
+        Planar {
+            xx: factor * self.xx,
+            xy: factor * self.xy,
+            yx: factor * self.yx,
+            yy: factor * self.yy,
+        }
+    }
 }
 
 impl RadialForce {

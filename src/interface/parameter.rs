@@ -1,6 +1,8 @@
 //! The numbers of a model that a master may change until initialization ends.
 
-use crate::config::{Config, GearboxVibration, HousingMode, Planar, RadialForce};
+use crate::config::{
+    Config, GearboxVibration, Housing, HousingMode, KnownBearing, Planar, RadialForce,
+};
 
 /// A parameter, by the place of its number in the configuration. Indices count from zero.
 #[expect(
@@ -43,10 +45,16 @@ pub enum Parameter {
     HousingFrequency { mode: usize },
     /// `housing.damping_ratio[i]`
     HousingDampingRatio { mode: usize },
+    /// `<point>.stiffness.xx` and so on, of a bearing that a housing knows.
+    PointStiffness { point: usize, entry: PlanarEntry },
+    /// `<point>.damping.xx` and so on.
+    PointDamping { point: usize, entry: PlanarEntry },
     /// `simulation.tolerance`
     Tolerance,
     /// `simulation.input_extrapolation`
     InputExtrapolation,
+    /// `simulation.known_bearings`, of a housing whose points name bearings.
+    KnownBearings,
 }
 
 /// One entry of a 2 x 2 coefficient matrix.
@@ -114,15 +122,31 @@ impl Parameter {
             Parameter::HousingDampingRatio { mode } => {
                 &mut housing_mode(config, mode).damping_ratio
             }
+            Parameter::PointStiffness { point, entry } => {
+                entry.slot(&mut known_bearing(config, point).stiffness)
+            }
+            Parameter::PointDamping { point, entry } => {
+                entry.slot(&mut known_bearing(config, point).damping)
+            }
             Parameter::Tolerance => &mut config.simulation.tolerance,
             Parameter::InputExtrapolation => &mut config.simulation.input_extrapolation,
+            Parameter::KnownBearings => &mut config.simulation.known_bearings,
         }
     }
 }
 
-fn housing_mode(config: &mut Config, mode: usize) -> &mut HousingMode {
+fn housing(config: &mut Config) -> &mut Housing {
     let housing = config.housing.as_mut();
-    &mut housing.expect("only a housing has these parameters").modes[mode]
+    housing.expect("only a housing has these parameters")
+}
+
+fn housing_mode(config: &mut Config, mode: usize) -> &mut HousingMode {
+    &mut housing(config).modes[mode]
+}
+
+fn known_bearing(config: &mut Config, point: usize) -> &mut KnownBearing {
+    let bearing = &mut housing(config).points[point].bearing;
+    bearing.get_or_insert(KnownBearing::NONE)
 }
 
 impl PlanarEntry {

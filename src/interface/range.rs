@@ -39,12 +39,13 @@ impl Parameter {
                 min: Some(-1e6),
                 max: Some(1e6),
             },
-            Parameter::BearingStiffness { entry, .. } | Parameter::BearingDamping { entry, .. } => {
-                match entry {
-                    PlanarEntry::Xx | PlanarEntry::Yy => NOT_NEGATIVE,
-                    PlanarEntry::Xy | PlanarEntry::Yx => ANY,
-                }
-            }
+            Parameter::BearingStiffness { entry, .. }
+            | Parameter::BearingDamping { entry, .. }
+            | Parameter::PointStiffness { entry, .. }
+            | Parameter::PointDamping { entry, .. } => match entry {
+                PlanarEntry::Xx | PlanarEntry::Yy => NOT_NEGATIVE,
+                PlanarEntry::Xy | PlanarEntry::Yx => ANY,
+            },
             Parameter::LateralDampingRatio { .. }
             | Parameter::TorsionalDampingRatio { .. }
             | Parameter::UnbalanceMoment { .. }
@@ -55,7 +56,7 @@ impl Parameter {
             | Parameter::HousingDampingRatio { .. }
             | Parameter::Vibration(VibrationEntry::Frequency) => NOT_NEGATIVE,
             Parameter::UnbalancePhase { .. } | Parameter::Vibration(_) => ANY,
-            Parameter::InputExtrapolation => Range {
+            Parameter::InputExtrapolation | Parameter::KnownBearings => Range {
                 min: Some(0.0),
                 max: Some(1.0),
             },

@@ -4,6 +4,7 @@
 //! the number of the first one.
 
 use super::inputs::{self, SupportVibration};
+use super::known_bearings::KnownBearings;
 use super::layout::{Coordinates, Layout};
 use super::radial::RadialBearing;
 use super::spin::{SpeedBearing, Spin};
@@ -84,9 +85,15 @@ impl ModalModel {
             spins,
             harmonics,
             vibration,
+            known_bearings: known_bearings(train, housing.as_ref()),
             housing,
         })
     }
+}
+
+fn known_bearings(train: &GearTrain, housing: Option<&Housing>) -> Option<KnownBearings> {
+    let points = &train.housing.as_ref()?.points;
+    KnownBearings::of(housing?, points)
 }
 
 /// Where everything is; rotors with a bearing that the housing holds stand together with it.

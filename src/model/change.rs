@@ -182,7 +182,7 @@ impl Change<'_> {
     }
 
     /// The same for the bearing at a place among the inputs.
-    pub(super) fn force_on_gearbox(&self, input: usize) -> [f64; 2] {
+    pub fn force_on_gearbox(&self, input: usize) -> [f64; 2] {
         let (rotor, bearing) = self.motion.model.bearing_of(input);
         self.bearing_force(rotor, bearing, input)
     }

@@ -15,7 +15,7 @@ use crate::config::{GearboxVibration, Planar};
 use crate::solver::{Harmonic, Ramp, Row, State};
 
 /// Everything a master sets while the simulation runs, or how it changes per second.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     /// External torques [N m], in the order of [`ModalModel::torques`].
     pub torques: Vec<f64>,

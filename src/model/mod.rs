@@ -23,6 +23,7 @@ mod equilibrium;
 mod excitation;
 mod housing;
 mod inputs;
+mod known_bearings;
 mod layout;
 mod monitors;
 mod motion;
@@ -49,6 +50,7 @@ pub use motion::Motion;
 pub use radial::RadialBearing;
 
 use inputs::SupportVibration;
+use known_bearings::KnownBearings;
 use spin::Spin;
 
 /// An assembled gear train.
@@ -70,6 +72,8 @@ pub struct ModalModel {
     vibration: SupportVibration,
     /// The structure around the rotors.
     pub housing: Option<Housing>,
+    /// What a housing by itself knows of the bearings that stand on it.
+    known_bearings: Option<KnownBearings>,
 }
 
 /// One rotor: where its coordinates are and what sits on it.

@@ -64,10 +64,15 @@ impl Slave {
             _ => Some("is no output"),
         })?;
         check_orders(orders, OUTPUT_DERIVATIVE_ORDER, "an output")?;
-        let rate = self.rate.clone().unwrap_or_else(|| self.no_inputs());
+        let (known, held) = (self.rate.clone(), self.no_inputs());
         let simulation = self.started()?;
         let acceleration = simulation.acceleration();
         let motion = simulation.motion();
+        let rate = known.unwrap_or_else(|| {
+            let mut rate = held;
+            motion.add_known_force_rates(-1.0, &mut rate);
+            rate
+        });
         let change = Change {
             motion,
             position: motion.state.velocity(),

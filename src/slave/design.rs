@@ -100,6 +100,7 @@ impl Design {
         let (train, _) = validate(config).map_err(|problems| joined(&problems))?;
         let mut comparable = config.clone();
         comparable.simulation.clone_from(&self.config.simulation);
+        comparable.simulation.known_bearings = config.simulation.known_bearings;
         if comparable == self.config {
             return Ok(self.model.clone());
         }

@@ -208,22 +208,26 @@ impl Slave {
         }
         let length = end - now;
         let share = self.config.simulation.input_extrapolation;
-        let mut rate = self.rate.as_ref();
-        if share > 0.0 && rate.is_none() {
-            // Outputs were read with the inputs continued; the next step begins with those that were set.
-            simulation.inputs_mut().overwrite(&self.inputs);
-            rate = Some(self.continuation.rate(&self.inputs, length, share));
-        }
-        if let Err(error) = simulation.advance_along(end, rate) {
+        take_back_continued(simulation, share, &self.inputs);
+        let advanced = if let Some(rate) = &self.rate {
+            simulation.advance_along(end, Some(rate))
+        } else if share > 0.0 {
+            let rate = self.continuation.rate(simulation.carried(), length, share);
+            simulation.advance_carrying(end, Some(rate))
+        } else {
+            simulation.advance_carrying(end, None)
+        };
+        if let Err(error) = advanced {
             self.life_cycle = LifeCycle::Failed;
             let step = format!("the step from {time:?} s by {step:?} s");
             return Err(Error::new(format!("{step} failed: {error}")));
         }
         if share > 0.0 {
-            self.continuation.note(&self.inputs, length);
+            let began_with = simulation.carried_last().unwrap_or(&self.inputs);
+            self.continuation.note(began_with, length);
         }
-        if self.rate.take().is_some() {
-            self.inputs.overwrite(simulation.inputs());
+        if let Some(rate) = self.rate.take() {
+            self.inputs.add_change(&rate, length);
         }
         Ok(())
     }
@@ -253,6 +257,13 @@ impl Slave {
         let model = self.design.assemble(&self.config)?;
         Simulation::start(model, self.inputs.clone(), &settings, experiment.start)
             .map_err(|error| Error::new(format!("the simulation cannot start: {error}")))
+    }
+}
+
+/// Outputs are read with the inputs as the last step continued them, until some are set or the next step begins with all that were.
+fn take_back_continued(simulation: &mut Simulation, share: f64, inputs: &Inputs) {
+    if share > 0.0 || simulation.model().knows_bearings() {
+        simulation.inputs_mut().overwrite(inputs);
     }
 }
 

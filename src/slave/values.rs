@@ -67,14 +67,10 @@ impl Slave {
         }
         let design = &self.design;
         let inputs =
-            || pairs().filter_map(|(&reference, &value)| Some((design.input(reference)?, value)));
-        self.inputs.put(inputs());
+            pairs().filter_map(|(&reference, &value)| Some((design.input(reference)?, value)));
+        self.inputs.put(inputs);
         if let Some(running) = self.simulation.as_mut().map(Simulation::inputs_mut) {
-            if self.config.simulation.input_extrapolation == 0.0 {
-                running.overwrite(&self.inputs);
-            } else {
-                running.put(inputs()); // the others may have been continued there
-            }
+            running.overwrite(&self.inputs); // also those that the last step continued there
         }
         Ok(())
     }

@@ -202,7 +202,8 @@ fn check_table(place: &Place, table: &SpeedTable, speed: f64, problems: &mut Vec
     });
 }
 
-fn check_coefficients(
+/// Direct terms are not negative, cross terms are numbers.
+pub(super) fn check_coefficients(
     place: &Place,
     stiffness: &Planar,
     damping: &Planar,

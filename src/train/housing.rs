@@ -1,7 +1,8 @@
 //! Rules for the structure around the rotors, and which bearing stands where on it.
 
+use super::bearings::check_coefficients;
 use super::rules::Rules;
-use crate::config::{self, Config, Place, Problem, Start};
+use crate::config::{self, Config, KnownBearing, Place, Problem, Start};
 
 /// A valid structure.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +16,14 @@ pub struct Housing {
 }
 
 /// A place on the structure.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HousingPoint {
     /// Unique name.
     pub name: String,
     /// Whether forces from outside act there.
     pub takes_forces: bool,
+    /// The bearing of another model that exerts them, as far as they are to follow the motion through it.
+    pub bearing: Option<KnownBearing>,
 }
 
 /// A mode of vibration, mass normalised.
@@ -90,15 +93,38 @@ pub(super) fn resolve_housing(
                 .problem("connect", message.to_string()),
         );
     }
-    let points = housing.points.iter().map(|point| HousingPoint {
-        name: point.name.clone(),
-        takes_forces: housing.takes_forces(point),
+    let share = config.simulation.known_bearings;
+    let points = housing.points.iter().enumerate().map(|(index, point)| {
+        check_known_bearing(
+            &place.element("point", index, Some(&point.name)),
+            point,
+            problems,
+        );
+        HousingPoint {
+            name: point.name.clone(),
+            takes_forces: housing.takes_forces(point),
+            bearing: point
+                .bearing
+                .filter(|_| share > 0.0)
+                .map(|one| one.times(share)),
+        }
     });
     Housing {
         points: points.collect(),
         modes: resolve_modes(housing, config.simulation.start, problems),
         holds,
     }
+}
+
+fn check_known_bearing(place: &Place, point: &config::HousingPoint, problems: &mut Vec<Problem>) {
+    let Some(bearing) = &point.bearing else {
+        return;
+    };
+    check_coefficients(place, &bearing.stiffness, &bearing.damping, problems);
+    let mut rules = Rules { place, problems };
+    rules.ensure("stiffness", !point.observe, || {
+        "no bearing stands on a point that is only looked at (observe = true)".to_string()
+    });
 }
 
 fn resolve_modes(

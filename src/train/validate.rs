@@ -111,11 +111,20 @@ fn check_simulation(place: &Place, config: &Config, problems: &mut Vec<Problem>)
             "must be at least 1e-12, which is near rounding, and at most 0.1, found {tolerance}"
         )
     });
-    let extrapolation = simulation.input_extrapolation;
+    for (key, share) in [
+        ("input_extrapolation", simulation.input_extrapolation),
+        ("known_bearings", simulation.known_bearings),
+    ] {
+        rules.ensure(key, (0.0..=1.0).contains(&share), || {
+            format!("must be from 0 (off) to 1 (on), found {share}")
+        });
+    }
+    let mut points = config.housing.iter().flat_map(|housing| &housing.points);
+    let known = points.any(|point| point.bearing.is_some());
     rules.ensure(
-        "input_extrapolation",
-        (0.0..=1.0).contains(&extrapolation),
-        || format!("must be from 0 (off) to 1 (on), found {extrapolation}"),
+        "known_bearings",
+        known || simulation.known_bearings == 0.0,
+        || "no [[point]] has the stiffness of a bearing".to_string(),
     );
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");

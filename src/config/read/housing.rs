@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::super::dimension::{FREQUENCY, NUMBER};
+use super::super::dimension::{DAMPING, FREQUENCY, NUMBER, STIFFNESS};
 use super::super::document::{Document, Table};
 use super::super::place::{Place, Problem};
 use super::super::spot::{Lines, Spot, Text};
-use super::super::{Connection, Housing, HousingMode, HousingPoint, Kind};
+use super::super::{Connection, Housing, HousingMode, HousingPoint, Kind, KnownBearing};
 use super::KINDS;
+use super::planar::planar;
 
 /// Gives the text of a file by its path from the model file, or says why not.
 pub type Files<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -108,9 +109,23 @@ fn point(table: Table<'_, '_>) -> HousingPoint {
     let point = HousingPoint {
         name: table.string("name"),
         observe: table.boolean_or("observe", false),
+        bearing: known_bearing(&table),
     };
     table.finish();
     point
+}
+
+fn known_bearing(point: &Table<'_, '_>) -> Option<KnownBearing> {
+    if !point.has("stiffness") && !point.has("damping") {
+        return None;
+    }
+    if !point.has("stiffness") {
+        point.problem("stiffness", "missing beside damping");
+    }
+    Some(KnownBearing {
+        stiffness: planar(point, "stiffness", &STIFFNESS),
+        damping: planar(point, "damping", &DAMPING),
+    })
 }
 
 fn mode(table: Table<'_, '_>) -> HousingMode {

@@ -2,6 +2,7 @@
 
 mod housing;
 mod mesh;
+mod planar;
 mod rotor;
 mod tooth_geometry;
 
@@ -67,7 +68,7 @@ fn housing_alone(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -
         kind: Kind::Housing,
         name: table.string("name"),
         description: table.optional_string("description").unwrap_or_default(),
-        simulation: simulation(table.table("simulation")),
+        simulation: simulation(table.table("simulation"), Kind::Housing),
         basis: None,
         materials: BTreeMap::new(),
         rotors: Vec::new(),
@@ -78,7 +79,7 @@ fn housing_alone(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -
 }
 
 fn gear_train(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -> Config {
-    let simulation = simulation(table.table("simulation"));
+    let simulation = simulation(table.table("simulation"), Kind::GearTrain);
     let free = simulation.speed == SpeedMode::Free;
     Config {
         kind: Kind::GearTrain,
@@ -110,13 +111,14 @@ fn gear_train(table: &Table<'_, '_>, files: Files<'_>, beside: &mut Beside) -> C
     }
 }
 
-fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
+fn simulation(table: Option<Table<'_, '_>>, kind: Kind) -> Simulation {
     let defaults = Simulation {
         speed: SpeedMode::Prescribed,
         solver: SolverChoice::Exponential,
         start: Start::Equilibrium,
         tolerance: 1e-4,
         input_extrapolation: 0.0,
+        known_bearings: 0.0,
         stop_time: 1.0,
         step_size: 1e-5,
     };
@@ -142,6 +144,10 @@ fn simulation(table: Option<Table<'_, '_>>) -> Simulation {
             .unwrap_or(defaults.start),
         tolerance: table.number_or("tolerance", &NUMBER, defaults.tolerance),
         input_extrapolation: f64::from(u8::from(table.boolean_or("input_extrapolation", false))),
+        known_bearings: match kind {
+            Kind::Housing => f64::from(u8::from(table.boolean_or("known_bearings", false))),
+            Kind::GearTrain => 0.0,
+        },
         stop_time: table.number_or("stop_time", &TIME, defaults.stop_time),
         step_size: table.number_or("step_size", &TIME, defaults.step_size),
     };

@@ -1,14 +1,15 @@
 //! `[[rotor]]` with everything on it.
 
 use super::super::dimension::{
-    ANGLE, ANGULAR_SPEED, CUBIC_STIFFNESS, DAMPING, Dimension, INERTIA, LENGTH, MASS, NUMBER,
-    STIFFNESS, TORQUE, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS, UNBALANCE, force_per_power,
+    ANGLE, ANGULAR_SPEED, CUBIC_STIFFNESS, DAMPING, INERTIA, LENGTH, MASS, NUMBER, STIFFNESS,
+    TORQUE, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS, UNBALANCE, force_per_power,
 };
 use super::super::document::Table;
 use super::super::{
-    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Planar, Probe, RadialForce,
-    Rotor, Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
+    BaseCircle, BasisSupport, Bearing, Bow, Disk, Gear, OutsideSpeeds, Probe, RadialForce, Rotor,
+    Segment, SpeedPoint, SpeedTable, Torque, Unbalance,
 };
+use super::planar::planar;
 
 /// `free`: the rotation is a state, and `speed` its start value, 0 when absent.
 pub(super) fn rotor(table: Table<'_, '_>, free: bool) -> Rotor {
@@ -189,27 +190,6 @@ fn hertz(table: &Table<'_, '_>) -> RadialForce {
         coefficient,
         exponent,
     }
-}
-
-/// yy defaults to xx, cross terms to zero, an absent table to nothing.
-fn planar(bearing: &Table<'_, '_>, key: &'static str, kind: &Dimension) -> Planar {
-    let Some(table) = bearing.table(key) else {
-        return Planar {
-            xx: 0.0,
-            xy: 0.0,
-            yx: 0.0,
-            yy: 0.0,
-        };
-    };
-    let xx = table.number("xx", kind);
-    let planar = Planar {
-        xx,
-        xy: table.number_or("xy", kind, 0.0),
-        yx: table.number_or("yx", kind, 0.0),
-        yy: table.number_or("yy", kind, xx),
-    };
-    table.finish();
-    planar
 }
 
 fn unbalance(table: &Table<'_, '_>) -> Unbalance {

@@ -3,6 +3,7 @@
 use super::super::parameter::Parameter;
 use super::super::{Quantity, Unit};
 use super::{AXES, Table};
+use crate::config::Kind;
 use crate::model::Housing as ModalHousing;
 use crate::train::Housing;
 
@@ -83,6 +84,35 @@ impl Table<'_> {
                 Unit::One,
                 Parameter::HousingDampingRatio { mode },
                 format!("Damping ratio of mode {number} of the housing alone"),
+            );
+        }
+    }
+
+    /// What a housing by itself knows of the bearings on it; in a gear train they are bearings of that train.
+    pub(super) fn known_bearings(&mut self) {
+        let structure = self.config.housing.iter();
+        let structure = structure.filter(|_| self.config.kind == Kind::Housing);
+        let points = structure.flat_map(|housing| &housing.points).enumerate();
+        let known = points.filter(|(_, point)| point.bearing.is_some());
+        let known: Vec<(usize, String)> = known
+            .map(|(index, point)| (index, point.name.clone()))
+            .collect();
+        for (point, name) in &known {
+            let point = *point;
+            self.coefficients(
+                name,
+                &format!("the bearing on {name}, as far as the housing knows"),
+                |entry| Parameter::PointStiffness { point, entry },
+                |entry| Parameter::PointDamping { point, entry },
+            );
+        }
+        if !known.is_empty() {
+            self.parameter(
+                "simulation.known_bearings".to_string(),
+                Unit::One,
+                Parameter::KnownBearings,
+                "1: forces of bearings follow the housing's motion within a step, by the stiffness and damping that its points state; 0: not"
+                    .to_string(),
             );
         }
     }

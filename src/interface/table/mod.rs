@@ -40,6 +40,7 @@ pub(super) fn build(config: &Config, train: &GearTrain, model: &ModalModel) -> I
     table.parameters(train);
     if let Some(housing) = &train.housing {
         table.housing_parameters(housing);
+        table.known_bearings();
     }
     for (index, (rotor, modal)) in train.rotors.iter().zip(&model.rotors).enumerate() {
         table.frequencies(index, rotor, modal);

@@ -125,6 +125,26 @@ impl Table<'_> {
         );
     }
 
+    /// Stiffness and damping at a place.
+    pub(super) fn coefficients(
+        &mut self,
+        prefix: &str,
+        place: &str,
+        stiffness: impl Fn(PlanarEntry) -> Parameter,
+        damping: impl Fn(PlanarEntry) -> Parameter,
+    ) {
+        for (letters, entry) in PlanarEntry::NAMED {
+            let name = format!("{prefix}.stiffness.{letters}");
+            let text = format!("Stiffness of {place}: {}", per(letters, "displacement"));
+            self.parameter(name, Unit::NewtonPerMeter, stiffness(entry), text);
+        }
+        for (letters, entry) in PlanarEntry::NAMED {
+            let name = format!("{prefix}.damping.{letters}");
+            let text = format!("Damping of {place}: {}", per(letters, "velocity"));
+            self.parameter(name, Unit::NewtonSecondPerMeter, damping(entry), text);
+        }
+    }
+
     fn rotor_parameters(&mut self, index: usize, rotor: &Rotor) {
         let shaft = &rotor.name;
         let ratios = [
@@ -146,27 +166,20 @@ impl Table<'_> {
         // Coefficients that depend on the speed follow from mean_speed.
         let constant = |(_, data): &(usize, &Bearing)| !data.depends_on_speed();
         for (bearing, data) in rotor.bearings.iter().enumerate().filter(constant) {
-            let place = format!("bearing {} of {shaft}", data.name);
-            for (letters, entry) in PlanarEntry::NAMED {
-                let parameter = Parameter::BearingStiffness {
+            self.coefficients(
+                &format!("{shaft}.{}", data.name),
+                &format!("bearing {} of {shaft}", data.name),
+                |entry| Parameter::BearingStiffness {
                     rotor: index,
                     bearing,
                     entry,
-                };
-                let name = format!("{shaft}.{}.stiffness.{letters}", data.name);
-                let text = format!("Stiffness of {place}: {}", per(letters, "displacement"));
-                self.parameter(name, Unit::NewtonPerMeter, parameter, text);
-            }
-            for (letters, entry) in PlanarEntry::NAMED {
-                let parameter = Parameter::BearingDamping {
+                },
+                |entry| Parameter::BearingDamping {
                     rotor: index,
                     bearing,
                     entry,
-                };
-                let name = format!("{shaft}.{}.damping.{letters}", data.name);
-                let text = format!("Damping of {place}: {}", per(letters, "velocity"));
-                self.parameter(name, Unit::NewtonSecondPerMeter, parameter, text);
-            }
+                },
+            );
         }
         let radial = rotor.bearings.iter().enumerate();
         for (bearing, data) in radial.filter(|(_, data)| data.nonlinear.is_some()) {

@@ -12,7 +12,7 @@ import subprocess
 import fmpy
 import numpy as np
 import pytest
-from conftest import ROOT, simulate
+from conftest import ROOT, couple, simulate
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.validation import validate_fmu
 from masters import ecos, libcosim
@@ -57,6 +57,48 @@ def check(found, expected):
 def test_all_three_fmus_are_valid(folder):
     for name in ("three_stage", "gearbox_housing", NAME):
         assert validate_fmu(str(folder / f"{name}.fmu")) == [], name
+
+
+def starts(fmu):
+    return {variable.name: float(variable.start) for variable in fmpy.read_model_description(fmu).modelVariables
+            if variable.causality == "parameter"}
+
+
+def test_the_housing_is_told_of_the_bearings_on_it_and_makes_no_use_of_them_unasked(folder):
+    train, housing = starts(folder / "three_stage.fmu"), starts(folder / "gearbox_housing.fmu")
+    bearings = [name for name in train if re.search(r"\.b\d\.(stiffness|damping)\.", name)]
+    assert len(bearings) == 8 * 8
+    assert {name: housing[name.replace(".", "_", 1)] for name in bearings} == {name: train[name] for name in bearings}
+    assert housing["simulation.known_bearings"] == 0.0
+
+
+def test_what_a_housing_says_of_its_bearings_stays_and_springs_behind_a_load_are_those_at_the_start(tmp_path):
+    """Balls, F = c r^1.5, beside a linear spring under the load of the teeth; the other point has its own words."""
+    housing = (ROOT / "tests/models/box.toml").read_text()
+    housing = housing.replace('name = "pinion_left"', 'name = "pinion_left"\nstiffness = { xx = 1e7 }')
+    train = (ROOT / "tests/models/reducer.toml").read_text()
+    damper = "damping = { xx = 600.0 }\n"
+    assert train.count(damper) == 1
+    balls = damper + '[rotor.bearing.nonlinear]\nlaw = "hertz"\ncoefficient = 1e10\n'
+    (tmp_path / "reducer.toml").write_text(train.replace(damper, balls))
+    (tmp_path / "box.toml").write_text(housing)
+    (tmp_path / "box_modes.csv").write_text((ROOT / "tests/models/box_modes.csv").read_text())
+    links = {f"pinion_shaft.{side}": f"pinion_{side}" for side in ("left", "right")}
+    out = couple(str(tmp_path / "reducer.toml"), str(tmp_path / "box.toml"), tmp_path / "out", links)
+    told, train = starts(out / "box.fmu"), starts(out / "reducer.fmu")
+    assert told["pinion_left.stiffness.xx"] == told["pinion_left.stiffness.yy"] == 1e7 and "foot.stiffness.xx" not in told
+    # Along the load the balls are half as stiff again as across, whatever the load: dF/dr = 1.5 F/r.
+    linear = np.array([[train[f"pinion_shaft.right.stiffness.{entry}"] for entry in row] for row in (("xx", "xy"), ("yx", "yy"))])
+    found = np.array([[told[f"pinion_right.stiffness.{entry}"] for entry in row] for row in (("xx", "xy"), ("yx", "yy"))])
+    across, along = np.linalg.eigvalsh(found - linear)
+    assert across > 1e6 and abs(along / across - 1.5) < 1e-6
+
+
+def test_the_housings_own_file_is_not_written_over(folder):
+    command = [os.environ.get("CARGO", "cargo"), "run", "--quiet", "--package", "xtask", "--", "couple", f"{folder.parent}/three_stage.toml",
+               f"{folder.parent}/gearbox_housing.toml", "--out", str(folder.parent)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode != 0 and "is the housing's own file" in done.stderr
 
 
 def test_the_table_of_connections_is_that_of_the_ssp(folder):

@@ -1,5 +1,7 @@
 //! `cargo xtask couple`: a gear train and a housing as a pair of FMUs that any master can run, and as one for comparison.
 
+mod known;
+
 use std::path::{Path, PathBuf};
 
 use fmu_build::Ssp;
@@ -28,6 +30,7 @@ struct Options {
 struct Model {
     file: ModelFile,
     loaded: Loaded,
+    model: ModalModel,
     interface: Interface,
 }
 
@@ -62,8 +65,9 @@ pub fn command(arguments: &[&str]) -> Result<(), String> {
     let out = options
         .out
         .unwrap_or_else(|| workspace().join("target/couple").join(&name));
+    let structure = write_housing(&out, (&train, &housing), &contacts)?;
     let embedded = write_embedded(&out, &name, (&train, &housing), &contacts)?;
-    let fmus = pack(&[options.train, options.housing, embedded], &out, &[])?;
+    let fmus = pack(&[options.train, structure, embedded], &out, &[])?;
     write_system(&out, &name, [&train, &housing], &fmus[..2], &contacts)?;
     shell::write(
         &out.join("couple.py"),
@@ -128,6 +132,7 @@ impl Model {
             .map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(Model {
             interface: Interface::of(&loaded.config, &loaded.train, &model),
+            model,
             file,
             loaded,
         })
@@ -202,7 +207,7 @@ fn contacts(train: &Model, housing: &Model, asked: Vec<Contact>) -> Result<Vec<C
     Ok(contacts)
 }
 
-/// The train with the housing inside, as a model file of its own with all files that it names beside it.
+/// The train with the housing inside, as a model file of its own.
 fn write_embedded(
     out: &Path,
     name: &str,
@@ -226,10 +231,27 @@ fn write_embedded(
     }
     let path = out.join(format!("{name}.toml"));
     shell::write(&path, text.as_bytes())?;
-    shell::write(
-        &out.join(format!("{}.toml", housing.name())),
-        housing.file.text.as_bytes(),
-    )?;
+    Ok(path)
+}
+
+/// The housing's file, with what it is to know of the bearings, and the table of its modes.
+fn write_housing(
+    out: &Path,
+    (train, housing): (&Model, &Model),
+    contacts: &[Contact],
+) -> Result<PathBuf, String> {
+    let text = known::with_bearings(housing, train, contacts)?;
+    let path = out.join(format!("{}.toml", housing.name()));
+    if path
+        .canonicalize()
+        .is_ok_and(|there| housing.file.is_at(&there))
+    {
+        let there = path.display();
+        return Err(format!(
+            "{there} is the housing's own file, of which a copy with its bearings is written: choose another folder"
+        ));
+    }
+    shell::write(&path, text.as_bytes())?;
     let structure = housing.loaded.config.housing.iter();
     for file in structure.filter_map(|structure| structure.modes_file.as_ref()) {
         shell::write(&out.join(file), housing.file.beside(file)?.as_bytes())?;

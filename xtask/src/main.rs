@@ -38,8 +38,9 @@ cargo xtask <command>
                                   modes kept are enough, communication step; --html: one page with pictures
                                   (default folder: target/inspect)
   couple TRAIN.toml HOUSING.toml [--out DIR] [--connect ROTOR.BEARING=POINT]...
-                                  a gear train and a housing as a pair of FMUs with an .ssp file, as one FMU for
-                                  comparison, and a script that runs them (default folder: target/couple/NAME)
+                                  a gear train and a housing, told of the bearings on it, as a pair of FMUs with an
+                                  .ssp file, as one FMU for comparison, and a script that runs them (default
+                                  folder: target/couple/NAME)
   demo                            pack examples/three_stage.toml, run the paper's four cases through FMPy, write
                                   Table I, figures 3 to 16 of the paper and CSV files to target/demo
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers

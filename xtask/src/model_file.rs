@@ -27,6 +27,11 @@ impl ModelFile {
         shell::read(&self.path_of(file))
     }
 
+    /// Whether this is its path, from the root on and without links.
+    pub fn is_at(&self, path: &Path) -> bool {
+        self.path.canonicalize().is_ok_and(|own| own == path)
+    }
+
     /// A path written in it.
     fn path_of(&self, file: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file)

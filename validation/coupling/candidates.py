@@ -8,7 +8,6 @@ from collections import deque
 
 import numpy as np
 from slaves import Pair, Slave
-from schemes import Derivatives, Held
 
 PIECES = 8
 
@@ -133,42 +132,6 @@ class Predicted:
         pair.train.set_rates(np.zeros(2 * half))
         pair.housing.set(forces)
         pair.step(h)
-
-
-class Impedance:
-    """The housing knows stiffness and damping of the bearings at its points: within a step the force follows the housing's own
-    motion through them; the rest of the force is held (order 0) or estimated. The train estimates its motion unless held."""
-
-    def __init__(self, order: int, train=None, scale: float = 1.0):
-        self.rest, self.train, self.scale = Estimate(order) if order else None, train, scale
-        self.stiffness = None
-
-    def step(self, pair: Pair, h: float) -> None:
-        motion, forces = pair.exchange()
-        half = pair.displacements
-        if self.stiffness is None:
-            response = -self.scale * pair.train.directional_derivatives()
-            self.stiffness, self.damping = response[:, :half], response[:, half:]
-
-        def through_bearings(displacement, velocity):
-            return self.stiffness @ displacement + self.damping @ velocity
-
-        rest = forces + through_bearings(motion[:half], motion[half:])
-        course = self.rest.course(rest, h) if self.rest else straight(rest, 0.0)
-        if self.train is None:
-            pair.train.step(h)
-        else:
-            follow(pair.train, self.train.course(motion, h), h)
-        # Small pieces stand for the exact propagation of a housing that stands on these springs.
-        pieces = max(PIECES, int(np.ceil(h / 2e-6)))
-        piece = h / pieces
-        for index in range(pieces):
-            now = pair.housing.get()
-            rest_now, rest_then = course(index * piece), course((index + 1) * piece)
-            pair.housing.set(rest_now - through_bearings(now[:half], now[half:]))
-            acceleration = pair.housing.rates()[half:]
-            pair.housing.set_rates((rest_then - rest_now) / piece - through_bearings(now[half:], acceleration))
-            pair.housing.step(piece)
 
 
 class TransmissionLine:

@@ -12,6 +12,7 @@ BASIS_SUPPORT = 2e5  # of examples/three_stage.toml, at every gear [N/m]
 UNDAMPED = {f"{stage}.{kind}_damping_ratio": 0.0 for stage in STAGES for kind in ("lateral", "torsional")}
 UNDAMPED |= {f"{stage}.{bearing}.damping.{axis}": 0.0 for stage, bearings in STAGES.items() for bearing in bearings
              for axis in ("xx", "yy")}
+UNDAMPED |= {f"{stage}_{bearing}.damping.{axis}": 0.0 for stage, bearings in STAGES.items() for bearing in bearings for axis in ("xx", "yy")}
 UNDAMPED |= {f"housing.damping_ratio[{mode}]": 0.0 for mode in HOUSING_MODES}
 # Meshes must not work: next to no stiffness, and torques are taken off. The pair starts from the equilibrium under torque: what
 # the housing bent under the load swings.
@@ -51,7 +52,7 @@ class Energy:
 
 def energies(folder: Path, scheme, h: float, stop: float) -> np.ndarray:
     """Energy at all communication points [J]."""
-    pair = Pair(folder, UNDAMPED, tolerance=1e-8)
+    pair = Pair(folder, UNDAMPED | getattr(scheme, "parameters", {}), tolerance=1e-8)
     energy = Energy(pair)
     found = [energy.now()]
     for _ in range(round(stop / h)):

@@ -37,6 +37,19 @@ class HeldAndContinued(Held):
     parameters = {"simulation.input_extrapolation": 1.0}
 
 
+class HeldOnKnownBearings(Held):
+    """the same with a housing that knows its bearings"""
+
+    parameters = {"simulation.known_bearings": 1.0}
+
+
+class HeldAndContinuedOnKnownBearings(Held):
+    """the same with slaves that continue their inputs and a housing that knows its bearings"""
+
+    def __init__(self, share: float = 1.0):
+        self.parameters = {"simulation.input_extrapolation": 1.0, "simulation.known_bearings": share}
+
+
 class HeldWithoutVelocity:
     """the same with velocity inputs left at 0"""
 
@@ -56,6 +69,12 @@ class Derivatives:
         pair.train.set_rates(pair.housing.rates())
         pair.housing.set_rates(pair.train.rates())
         pair.step(h)
+
+
+class DerivativesOnKnownBearings(Derivatives):
+    """the same with a housing that knows its bearings"""
+
+    parameters = {"simulation.known_bearings": 1.0}
 
 
 class Sequential:
@@ -100,3 +119,9 @@ class Rollback:
             pair.train.set_rates(motion_rates)
             pair.housing.set_rates(force_rates)
             pair.step(h)
+
+
+class RollbackOnKnownBearings(Rollback):
+    """the same with a housing that knows its bearings"""
+
+    parameters = {"simulation.known_bearings": 1.0}

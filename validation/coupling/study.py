@@ -10,10 +10,11 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from candidates import Averaged, Estimate, Estimated, Impedance, MeanOfParabola, Motion, Predicted, TransmissionLine
+from candidates import Averaged, Estimate, Estimated, MeanOfParabola, Motion, Predicted, TransmissionLine
 from energy import energies
 from measure import GRID, Course, coupled, largest_stable_step, reference, step_for
-from schemes import (Derivatives, Held, HeldAndContinued, HeldOldOutputs, HeldOldOutputsAndContinued, HeldWithoutVelocity, Rollback, Sequential,
+from schemes import (Derivatives, DerivativesOnKnownBearings, Held, HeldAndContinued, HeldAndContinuedOnKnownBearings, HeldOldOutputs,
+                     HeldOldOutputsAndContinued, HeldOnKnownBearings, HeldWithoutVelocity, Rollback, RollbackOnKnownBearings, Sequential,
                      SequentialExtrapolated)
 
 matplotlib.use("Agg")  # draws into files, needs no screen
@@ -32,10 +33,13 @@ SCHEMES = {
     "the same, `simulation.input_extrapolation` = 1": HeldOldOutputsAndContinued,
     "parallel, held, outputs re-evaluated": Held,
     "the same with `simulation.input_extrapolation` = 1": HeldAndContinued,
+    "parallel, held, `simulation.input_extrapolation` = 1 and `simulation.known_bearings` = 1": HeldAndContinuedOnKnownBearings,
     "sequential, held forces": Sequential,
     "parallel, input derivatives": Derivatives,
+    "parallel, input derivatives, `simulation.known_bearings` = 1": DerivativesOnKnownBearings,
     "sequential, extrapolated forces": SequentialExtrapolated,
     "two iterations with rollback": Rollback,
+    "two iterations with rollback, `simulation.known_bearings` = 1": RollbackOnKnownBearings,
     "three iterations with rollback": lambda: Rollback(3),
 }
 CANDIDATES = {
@@ -52,11 +56,10 @@ CANDIDATES = {
     "both: parabola through three points": lambda: Estimated(Estimate(2), Estimate(2), bent=True),
     "both: straight line with the mean of that parabola": lambda: Estimated(MeanOfParabola(), MeanOfParabola()),
     "both: motion bent, parabola for the forces": lambda: Estimated(Motion(True), Estimate(2), bent=True),
-    "housing knows the bearings, rest of the force held; train held": lambda: Impedance(0),
-    "housing knows the bearings, rest by difference; train bent": lambda: Impedance(1, Motion(True)),
-    "housing knows the bearings, rest by parabola; train bent": lambda: Impedance(2, Motion(True)),
-    "the same, stiffness and damping 30 % too low": lambda: Impedance(2, Motion(True), scale=0.7),
-    "the same, 30 % too high": lambda: Impedance(2, Motion(True), scale=1.3),
+    "housing knows the bearings, rest of the force held; train held": HeldOnKnownBearings,
+    "housing knows the bearings; both continue what is left": HeldAndContinuedOnKnownBearings,
+    "the same, stiffness and damping 30 % too low": lambda: HeldAndContinuedOnKnownBearings(0.7),
+    "the same, 50 % too low": lambda: HeldAndContinuedOnKnownBearings(0.5),
     "transmission lines of 1e4 N s/m": lambda: TransmissionLine(1e4),
     "transmission lines of 3e4 N s/m": lambda: TransmissionLine(3e4),
     "transmission lines of 1e5 N s/m": lambda: TransmissionLine(1e5),
@@ -64,7 +67,8 @@ CANDIDATES = {
 
 ENERGY = ["parallel, held, outputs re-evaluated", "parallel, input derivatives", "two iterations with rollback",
           "both, displacement with the velocity input", "both: parabola through three points",
-          "housing knows the bearings, rest by difference; train bent", "housing knows the bearings, rest by parabola; train bent"]
+          "parallel, input derivatives, `simulation.known_bearings` = 1",
+          "parallel, held, `simulation.input_extrapolation` = 1 and `simulation.known_bearings` = 1"]
 
 
 def errors(folder: Path, exact: Course, scheme, h: float, stop: float) -> list[float]:
@@ -135,7 +139,7 @@ def measure_energy(folder: Path) -> list[str]:
 def draw(found: dict[str, np.ndarray], picture: Path) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(13, 5), sharey=True, layout="constrained")
     for index, (ax, kind) in enumerate(zip(axes, KINDS)):
-        for mark, (name, table) in zip("vo^psD*xP", found.items()):
+        for mark, (name, table) in zip("vo^psD*xP<>dh", found.items()):
             ax.loglog(1e6 * np.array(STEPS), 100 * np.where(table[:, index] < 2, table[:, index], np.nan), marker=mark,
                       markersize=5, linewidth=1.2, label=name)
         ax.axhline(1.0, color="black", linewidth=0.8, linestyle=":")

@@ -75,7 +75,7 @@ impl FourierSeries {
         if self.coefficients.is_empty() {
             return 0.0;
         }
-        let (sine, cosine) = libm::sincos(TAU * (phase - phase.floor()));
+        let (sine, cosine) = libm::sincos(TAU * (phase - libm::floor(phase)));
         let mut harmonic = (1.0, 0.0);
         let mut order = 0.0;
         let mut sum = 0.0;

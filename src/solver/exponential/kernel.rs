@@ -6,7 +6,9 @@ use pulp::Arch;
 
 use super::super::grid::canonical;
 use super::super::march::{Ending, Method, Outcome, Span, Task};
-use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
+use super::super::{
+    Block, Counts, Forcing, Harmonic, Instant, Piece, Row, State, StepError, System,
+};
 use super::coefficients::Coefficients;
 use super::control::growth;
 use super::events::Sighting;
@@ -40,9 +42,11 @@ pub(super) struct Kernel {
     present_slow: Vec<f64>,
     parts: Vec<Part>,
     panels: Panels,
-    /// How displacements and velocities follow from the states, and the readings of the system.
+    /// How displacements and velocities follow from the states.
     shapes: Arc<Shapes>,
+    /// How everything that is read off follows from them, and room for that.
     reading: Rows,
+    read: Vec<f64>,
     motion: Motion,
     pub(super) exchange: Exchange,
     frequencies: Vec<f64>,
@@ -76,6 +80,7 @@ impl Kernel {
             present_slow: system.slow.clone(),
             shapes: Arc::new(Shapes::of(&parts)),
             reading: reading(system, &parts),
+            read: vec![0.0; 2 * couplings + system.readings.len()],
             motion: Motion::new(&parts, system.loads.len()),
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
@@ -114,10 +119,11 @@ impl Kernel {
             Some(states) => self.motion.states.copy_from_slice(states),
             None => self.motion.take_apart(&self.parts, state.pose.whole()),
         }
-        copy(&state.seen, &mut self.sight.nodes[0]);
+        for (target, seen) in self.sight.nodes[0].iter_mut().zip(&state.seen) {
+            target.copy_from_slice(seen);
+        }
         self.is_seen = true;
         self.arch.dispatch(TakeLoads {
-            parts: &self.parts,
             motion: &mut self.motion,
             ramps: task.forcing.loads(),
         });
@@ -125,27 +131,24 @@ impl Kernel {
 
     /// Ends the call: writes the state.
     pub(super) fn hand_back(&mut self, state: &mut State) -> Result<(), StepError> {
-        if !self.observe_states() {
-            return Err(StepError::NotFinite { time: state.time });
-        }
-        copy(&self.sight.nodes[0], &mut state.seen);
-        self.arch.dispatch(ReadOff {
+        let numbers = self.arch.dispatch(ReadOff {
             parts: &self.parts,
             motion: &self.motion,
             rows: &self.reading,
-            readings: &mut state.readings,
+            numbers: &mut self.read,
         });
+        if !numbers {
+            return Err(StepError::NotFinite { time: state.time });
+        }
+        let [deflections, rates] = &mut state.seen;
+        let mut read = self.read.as_slice();
+        for list in [deflections, rates, &mut state.readings] {
+            let (own, others) = read.split_at(list.len());
+            list.copy_from_slice(own);
+            read = others;
+        }
         state.pose.decouple(&self.motion.states, &self.shapes);
         Ok(())
-    }
-
-    /// What the couplings see in the present states. Gives whether these are numbers.
-    fn observe_states(&mut self) -> bool {
-        self.arch.dispatch(Observe {
-            panels: &self.panels.all,
-            motion: &self.motion,
-            sight: &mut self.sight,
-        })
     }
 
     /// Makes the blocks anew where the slow parameters of the state ask for it. Gives whether its decoupled states belong to
@@ -240,7 +243,11 @@ impl Kernel {
 impl Method for Kernel {
     fn observe<F: Forcing>(&mut self, _: Task<'_, F>, _: &mut State) {
         if !self.is_seen {
-            self.observe_states();
+            self.arch.dispatch(Observe {
+                panels: &self.panels.all,
+                states: &self.motion.states,
+                sight: &mut self.sight,
+            });
             self.is_seen = true;
         }
     }
@@ -349,16 +356,14 @@ impl Method for Kernel {
     }
 }
 
-/// Rows of the readings.
+/// Rows of deflections, then of rates, then of the readings.
 fn reading(system: &System, parts: &[Part]) -> Rows {
+    let none = Row::default();
+    let couplings = || system.couplings.iter();
+    let deflections = couplings().map(|coupling| [&coupling.row, &none]);
+    let rates = couplings().map(|coupling| [&none, &coupling.row]);
     let readings = system.readings.iter();
-    let numbers = readings.map(|reading| [&reading.position, &reading.velocity]);
+    let readings = readings.map(|reading| [&reading.position, &reading.velocity]);
+    let numbers = deflections.chain(rates).chain(readings);
     Rows::over(parts, &numbers.collect::<Vec<_>>())
-}
-
-/// Copies deflections and rates.
-fn copy(source: &[Vec<f64>; 2], target: &mut [Vec<f64>; 2]) {
-    for (target, source) in target.iter_mut().zip(source) {
-        target.copy_from_slice(source);
-    }
 }

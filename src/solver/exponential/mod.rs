@@ -22,6 +22,7 @@ mod events;
 mod exchange;
 mod kernel;
 mod lanes;
+mod loads;
 mod motion;
 mod nodes;
 mod panel;

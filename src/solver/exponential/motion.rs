@@ -6,6 +6,7 @@ use super::super::Ramp;
 use super::super::state::Track;
 use super::block_diagonal::{BlockDiagonal, add_pairs};
 use super::lanes::{Quad, add_multiple, add_products};
+use super::loads::Loads;
 use super::part::Part;
 use crate::linalg::multiply_add;
 
@@ -20,7 +21,8 @@ pub(super) struct Motion {
     load: Vec<Quad>,
     pub(super) load_rate: Vec<Quad>,
     /// What these belong to.
-    loads: Vec<Ramp>,
+    latest: Vec<Ramp>,
+    loads: Loads,
     /// Whether it changes.
     pub(super) ramps: bool,
     /// B.
@@ -43,7 +45,8 @@ impl Motion {
             derivative: zeros(),
             load: zeros(),
             load_rate: zeros(),
-            loads: Vec::with_capacity(loads),
+            latest: Vec::with_capacity(loads),
+            loads: Loads::on(parts),
             ramps: false,
             dynamics,
         }
@@ -51,19 +54,18 @@ impl Motion {
 
     /// The loads from outside.
     #[inline(always)]
-    pub(super) fn set_loads(&mut self, parts: &[Part], ramps: &[Ramp]) {
-        if self.loads == ramps {
+    pub(super) fn set_loads<S: Simd>(&mut self, simd: S, ramps: &[Ramp]) {
+        if self.latest == ramps {
             return; // nothing has changed since the call before
         }
-        self.loads.clear();
-        self.loads.extend_from_slice(ramps);
+        self.latest.clear();
+        self.latest.extend_from_slice(ramps);
         self.ramps = ramps.iter().any(|ramp| ramp.rate != 0.0);
-        for part in parts {
-            exert(part, ramps, |ramp| ramp.first, &mut self.load[part.quads()]);
-            if self.ramps {
-                let own = &mut self.load_rate[part.quads()];
-                exert(part, ramps, |ramp| ramp.rate, own);
-            }
+        self.loads
+            .exert(simd, |load| ramps[load].first, &mut self.load);
+        if self.ramps {
+            self.loads
+                .exert(simd, |load| ramps[load].rate, &mut self.load_rate);
         }
     }
 
@@ -150,19 +152,6 @@ impl Motion {
         gain.add_others(self.derivative.as_flattened(), states);
         if self.ramps {
             ramp_gain.add_others(self.load_rate.as_flattened(), states);
-        }
-    }
-}
-
-/// Overwrites the states of a part with what a value of each load exerts on them.
-#[inline(always)]
-fn exert(part: &Part, ramps: &[Ramp], value: impl Fn(&Ramp) -> f64, target: &mut [Quad]) {
-    target.fill([0.0; 4]);
-    let columns = part.load_columns.chunks_exact(target.len().max(1));
-    for (column, &number) in columns.zip(&part.loads) {
-        let factor = value(&ramps[number]);
-        for (sum, column) in target.iter_mut().zip(column) {
-            add_multiple(sum, factor, column);
         }
     }
 }

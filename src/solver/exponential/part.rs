@@ -12,7 +12,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::super::{Block, Harmonic, System};
 use super::block_diagonal::rank;
-use super::lanes::{Quad, padded};
+use super::lanes::padded;
 use crate::linalg::{Decoupling, Group, decouple};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
@@ -46,10 +46,8 @@ pub(super) struct Part {
     pub(super) actuator_columns: DMatrix<f64>,
     /// S times the same.
     pub(super) actuator_slopes: DMatrix<f64>,
-    /// The loads from outside that act on the block.
-    pub(super) loads: Vec<usize>,
-    /// V^-1 [0; column] of these, one after the other.
-    pub(super) load_columns: Vec<Quad>,
+    /// The loads from outside that act on the block: number, and V^-1 [0; column].
+    pub(super) loads: Vec<(usize, Vec<f64>)>,
     /// The harmonics that act on the block: number, and V^-1 [0; cosine - i sine].
     pub(super) harmonics: Vec<(usize, Vec<Complex<f64>>)>,
 }
@@ -89,13 +87,11 @@ impl Part {
         let (actuators, columns) =
             touching(&|coupling| system.couplings[coupling].column.in_block(index));
         let actuators_in_states = &input * columns;
-        let (mut loads, mut load_columns) = (Vec::new(), Vec::new());
-        for (number, column) in system.loads.iter().enumerate() {
-            if let Some(column) = column.in_block(index) {
-                loads.push(number);
-                load_columns.extend(in_states(&column).as_slice().as_chunks().0);
-            }
-        }
+        let loads = system.loads.iter().map(|column| column.in_block(index));
+        let loads = loads.enumerate().filter_map(|(number, column)| {
+            let column = in_states(&column?);
+            Some((number, column.as_slice().to_vec()))
+        });
         let harmonics = harmonics.iter().map(|(number, [cosine, sine])| {
             let (cosine, sine) = (in_states(cosine), in_states(sine));
             let load = cosine.iter().zip(sine.iter());
@@ -108,8 +104,7 @@ impl Part {
             sensor_slopes: both(&slopes.tr_mul(&deflections), &slopes.tr_mul(&rates)),
             actuator_slopes: &slopes * &actuators_in_states,
             actuator_columns: actuators_in_states,
-            loads,
-            load_columns,
+            loads: loads.collect(),
             harmonics: harmonics.collect(),
             paired: paired(&groups),
             groups,

@@ -7,7 +7,7 @@
 //!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
 //!   solve lines    the forces at the nodes from these, where all laws are straight lines
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
-//!   read off       readings of the system = rows eta
+//!   read off       deflections, rates and readings of the system = rows eta
 //! ```
 //!
 //! Each is one operation for `pulp`, compiled once for every width of vectors.
@@ -17,7 +17,7 @@ use pulp::{Simd, WithSimd};
 use super::super::Ramp;
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
-use super::lanes::{add_product, sum};
+use super::lanes::{Quad, add_product, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::{Panel, Panels};
@@ -42,15 +42,14 @@ pub(super) struct Compute<'a> {
 
 /// The loads of a call.
 pub(super) struct TakeLoads<'a> {
-    pub(super) parts: &'a [Part],
     pub(super) motion: &'a mut Motion,
     pub(super) ramps: &'a [Ramp],
 }
 
-/// What the couplings see at the start of a step and at the end of a call. Gives whether the states are numbers.
+/// What the couplings see at the start of a step.
 pub(super) struct Observe<'a> {
     pub(super) panels: &'a [Panel],
-    pub(super) motion: &'a Motion,
+    pub(super) states: &'a [Quad],
     pub(super) sight: &'a mut Sight,
 }
 
@@ -83,12 +82,12 @@ pub(super) struct Move<'a> {
     pub(super) turning: &'a Turning,
 }
 
-/// The readings of the system at the end of a call.
+/// What is known of the motion at the end of a call. Gives whether the states are numbers.
 pub(super) struct ReadOff<'a> {
     pub(super) parts: &'a [Part],
     pub(super) motion: &'a Motion,
     pub(super) rows: &'a Rows,
-    pub(super) readings: &'a mut [f64],
+    pub(super) numbers: &'a mut [f64],
 }
 
 impl WithSimd for Compute<'_> {
@@ -106,31 +105,32 @@ impl WithSimd for TakeLoads<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.motion.set_loads(self.parts, self.ramps);
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.motion.set_loads(simd, self.ramps);
     }
 }
 
 impl WithSimd for ReadOff<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let states = &self.motion.states;
-        self.rows.read(self.parts, states, self.readings);
-    }
-}
-
-impl WithSimd for Observe<'_> {
     type Output = bool;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
+        let states = &self.motion.states;
+        self.rows.read(self.parts, states, self.numbers);
+        self.motion.is_finite()
+    }
+}
+
+impl WithSimd for Observe<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
         let [deflections, rates] = &mut self.sight.nodes[0];
         deflections.fill(0.0);
         rates.fill(0.0);
         for panel in self.panels {
-            let own = &self.motion.states[panel.quads.clone()];
+            let own = &self.states[panel.quads.clone()];
             let mut rows = panel.rows.as_slice();
             for &sensor in &panel.sensors {
                 let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
@@ -143,7 +143,6 @@ impl WithSimd for Observe<'_> {
                 rates[sensor] += sum(&rate);
             }
         }
-        self.motion.is_finite()
     }
 }
 

@@ -169,8 +169,8 @@ impl<F: Forcing> View<'_, F> {
     /// The largest error of interpolation over two neighbouring intervals.
     fn missed(&self, sight: &mut Sight, margins: &Margins) -> f64 {
         let mut missed = 0.0_f64;
-        for node in 1..END {
-            let found = self.interpolated(sight, [node - 1, node + 1], PLACES[node]);
+        for (node, &place) in PLACES.iter().enumerate().take(END).skip(1) {
+            let found = self.interpolated(sight, [node - 1, node + 1], place);
             missed = missed.max((found - margins.0[node]).abs());
         }
         missed

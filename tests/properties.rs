@@ -4,19 +4,16 @@
 
 #![allow(clippy::disallowed_methods)] // tests compare with tolerances: the platform's sin will do
 
-#[path = "../support/mod.rs"]
 mod support;
-
-mod trains;
 
 use geartrain::config::SolverChoice;
 use geartrain::model::equilibrium;
 use nalgebra::DVector;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+use random_trains::{Train, base_radius, trains};
 use support::run::Run;
 use support::{assembled, rms, rms_difference, valid};
-use trains::{Train, base_radius, trains};
 
 /// Tests a property on `cases` trains, the same ones every time.
 fn for_all(cases: u32, property: impl Fn(Train) -> Result<(), TestCaseError>) {

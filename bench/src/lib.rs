@@ -4,6 +4,7 @@
 //!   models      texts of model files            problem   start, times, errors       equations   x' = f(t, x) for everybody
 //!   rivals      what solves it                  contest   the cheapest setting that reaches an error
 //!   fmu         the FMU's library, loaded       parts     one table each             series, table, clock, machine
+//!   forces      of a run, against another's
 //! ```
 //!
 //! Measures and prints; asserts nothing but that everybody solves the same equations.
@@ -14,6 +15,7 @@ pub mod clock;
 pub mod contest;
 pub mod equations;
 pub mod fmu;
+pub mod forces;
 pub mod machine;
 pub mod models;
 pub mod parts;

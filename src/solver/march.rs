@@ -17,8 +17,10 @@ use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 const PATIENCE: [(u64, f64); 2] = [(5_000, 1e-11), (50_000, 1e-9)];
 /// No call takes more steps: some minutes of work.
 const MOST_STEPS: u64 = 100_000_000;
-/// An event at the very start of a step still advances by this part of it; events that lie closer than that are one.
-const LEAST_ADVANCE: f64 = 1e-6;
+/// Events that lie closer than this part of a step are one, and are now where they lie so close to its start: this part of
+/// the tolerance, between these bounds. An impact that is late by it misses the force of the dampers for as long.
+const CLOSE: f64 = 1e-2;
+const CLOSE_WITHIN: (f64, f64) = (1e-10, 1e-6);
 /// In parts of a step shorter than this a piece that has just begun does not end again: it begins where rounding lets it.
 const TOO_SHORT_TO_END: f64 = 1e-3;
 /// After so many interruptions of one step a law that is to land counts as landed.
@@ -272,7 +274,15 @@ impl March {
                 Outcome::Interrupted { law, time } => {
                     // No less than what rounding lets times differ by.
                     let rounding = 4.0 * f64::EPSILON * span.start.abs();
-                    let least = (LEAST_ADVANCE * whole.step).max(rounding);
+                    let close = (CLOSE * task.tolerance).clamp(CLOSE_WITHIN.0, CLOSE_WITHIN.1);
+                    let least = (close * whole.step).max(rounding);
+                    // A piece lasts: one that has just begun does not end now.
+                    if time <= span.start + least && self.begun[law] != span.start {
+                        self.landing.fill(false);
+                        self.landing[law] = true;
+                        self.end_pieces(method, task, state);
+                        return Ok(true);
+                    }
                     let end = time.max(span.start + least);
                     let again = self.landing[law];
                     if !again && end < span.end - least {

@@ -74,6 +74,8 @@ pub struct Reading {
 pub struct Monitor {
     /// The couplings that make up the force; none for a displacement that only the linear part moves.
     pub couplings: core::ops::Range<usize>,
+    /// The monitors whose forces count beside its own: an error is as large as it is beside all of them.
+    pub beside: Vec<usize>,
     /// The couplings whose deflections are to be right where they are what matters, and not a force.
     pub motion: core::ops::Range<usize>,
     /// The displacement that the force belongs to is `row * q`.
@@ -87,6 +89,8 @@ pub struct Monitor {
     /// What an error of deflection counts, in force per deflection, where the force at the moment may hide it: that of teeth
     /// in flight or of a contact just opening. 0 for forces that show it always.
     pub stiffness: f64,
+    /// What an error of rate counts, in force per rate [N s/m]: what it becomes as the motion swings.
+    pub impedance: f64,
     /// Forces below this count as zero.
     pub floor: f64,
 }

@@ -46,7 +46,7 @@ cargo xtask <command>
   test                            everything: formatting, lints, Rust tests, packed FMUs in real importers
   platforms                       FMUs for all platforms, run on a Debian 11, under wine and qemu and compared to the bit
   fuzz [--seconds N] [--seed S]   random calls, states and model files for N seconds (60); a failure names its seed
-  bench [solvers|masters|start|chains|accuracy]... [--record]
+  bench [solvers|masters|start|chains|accuracy|trains]... [--record]
                                   how fast it is: our solvers against others at the same error, a communication
                                   step through the C interface, starting an instance, growth with the number of
                                   rotors, error over tolerance; --record puts all tables into docs/performance.md

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use geartrain::config;
 use geartrain::config::SolverChoice::{self, Exponential, Newmark};
-use geartrain::interface::{Interface, Quantity};
-use geartrain::simulation::Simulation;
+use geartrain::interface::Interface;
 use geartrain::train::{Loaded, load_beside};
 
+use crate::forces::Forces;
 use crate::models::{read, workspace};
 use crate::problem::started;
-use crate::series;
 use crate::table::Table;
 
 /// The decades of tolerance, 1e-2 to 1e-8.
@@ -20,18 +19,6 @@ const CONVERGED: f64 = 1e-10;
 const OTHER: f64 = 1e-7;
 /// Communication steps: that of the file, and so many of them in one, where the tolerance alone decides on steps.
 const STRIDES: [u32; 2] = [1, 37];
-/// A bearing whose force alternates by less than this part of the largest is judged by that part.
-const SMALL: f64 = 1e-3;
-
-/// Forces at every communication point.
-struct Forces {
-    /// Communication step [s].
-    step: f64,
-    /// One series per mesh.
-    meshes: Vec<Vec<f64>>,
-    /// One series per bearing, both components.
-    bearings: Vec<[Vec<f64>; 2]>,
-}
 
 /// Measures and prints.
 pub fn run() -> Result<(), String> {
@@ -139,70 +126,9 @@ fn forces(text: &str, solver: SolverChoice, tolerance: f64, stride: u32) -> Resu
         solver,
         ..config.simulation.clone()
     };
-    let mut simulation = started(&train, &settings, tolerance);
+    let simulation = started(&train, &settings, tolerance);
     let interface = Interface::of(&config, &train, simulation.model());
-    let quantities = || interface.variables.iter().map(|variable| variable.quantity);
-    let meshes: Vec<Quantity> = quantities()
-        .filter(|quantity| matches!(quantity, Quantity::MeshForce { .. }))
-        .collect();
-    let bearings: Vec<Quantity> = quantities()
-        .filter(|quantity| matches!(quantity, Quantity::BearingForce { .. }))
-        .collect();
     let step = f64::from(stride) * settings.step_size;
-    let mut forces = Forces {
-        step,
-        meshes: vec![Vec::new(); meshes.len()],
-        bearings: vec![[Vec::new(), Vec::new()]; bearings.len() / 2],
-    };
-    let mut note = |simulation: &Simulation| {
-        let motion = simulation.motion();
-        for (series, mesh) in forces.meshes.iter_mut().zip(&meshes) {
-            series.push(mesh.evaluate(&motion));
-        }
-        let components = forces.bearings.iter_mut().flatten();
-        for (series, bearing) in components.zip(&bearings) {
-            series.push(bearing.evaluate(&motion));
-        }
-    };
     let count = (settings.stop_time / step).round() as u32;
-    for index in 1..=count {
-        let reached = simulation.advance_to(f64::from(index) * step);
-        reached.map_err(|error| error.to_string())?;
-        note(&simulation);
-    }
-    Ok(forces)
-}
-
-impl Forces {
-    /// Relative to the alternating part, the worst mesh.
-    fn mesh_error(&self, converged: &Forces) -> f64 {
-        let pairs = self.meshes.iter().zip(&converged.meshes);
-        series::worst(
-            pairs.map(|(found, right)| {
-                series::difference(found, right) / series::alternating(right)
-            }),
-        )
-    }
-
-    /// Relative to the RMS, the worst mesh.
-    fn promised_error(&self, converged: &Forces) -> f64 {
-        let pairs = self.meshes.iter().zip(&converged.meshes);
-        series::worst(
-            pairs.map(|(found, right)| series::difference(found, right) / series::rms(right)),
-        )
-    }
-
-    /// Relative to the alternating part of both components, the worst bearing.
-    fn bearing_error(&self, converged: &Forces) -> f64 {
-        let both = |parts: [f64; 2]| libm::hypot(parts[0], parts[1]);
-        let size =
-            |right: &[Vec<f64>; 2]| both([0, 1].map(|axis| series::alternating(&right[axis])));
-        let largest = converged.bearings.iter().map(size).fold(0.0, f64::max);
-        let pairs = self.bearings.iter().zip(&converged.bearings);
-        series::worst(pairs.map(|(found, right)| {
-            let difference =
-                both([0, 1].map(|axis| series::difference(&found[axis], &right[axis])));
-            difference / size(right).max(SMALL * largest)
-        }))
-    }
+    Forces::of(simulation, &interface, (step, count), None)
 }

@@ -5,10 +5,11 @@
 //! that the motion remembers, and is held below the tolerance:
 //!
 //! ```text
-//!   SAFETY |F(d + e_d, d' + e_v) - F(d, d')| n <= tolerance x RMS of F over the run so far,   n = min(t, 1/(zeta w)) / h
+//!   max(1, SAFETY n) |F(d + e_d, d' + e_v) - F(d, d')| <= tolerance x RMS of F over the run so far,   n = min(t, 1/(zeta w)) / h
 //! ```
 //!
-//! Where a motion is what matters, its own e counts; where a force can hide e, because teeth are in flight or a contact is
+//! An error of momentum becomes one of force a quarter of a vibration later: e_v counts with the impedance k/w as well. Where a
+//! motion is what matters, its own e counts; where a force can hide e, because teeth are in flight or a contact is
 //! just opening, e counts with a typical stiffness. w is the frequency of the force by itself, zeta the lightest damping ratio in it.
 
 use super::super::march::{Span, Task};
@@ -49,27 +50,35 @@ impl Kernel {
         let (sight, control) = (&self.sight, &state.control);
         let elapsed = control.elapsed + span.step;
         let (per_elapsed, per_step) = (1.0 / elapsed, 1.0 / span.step);
+        let monitors = &task.system.monitors;
+        let mean_square = |number: usize| {
+            let present = span.step * sight.mean_square(&monitors[number]);
+            (control.squares[number] + present) * per_elapsed
+        };
         let mut worst: f64 = 0.0;
-        for (monitor, squares) in task.system.monitors.iter().zip(&control.squares) {
+        for (number, monitor) in monitors.iter().enumerate() {
             if monitor.couplings.is_empty() && monitor.motion.is_empty() {
                 continue; // exact
             }
-            let mean = (squares + span.step * sight.mean_square(monitor)) * per_elapsed;
+            let others = monitor.beside.iter().map(|&other| mean_square(other));
+            let mean = others.fold(mean_square(number), |sum, one| sum + one);
             let reference = mean.sqrt().max(monitor.floor);
             let decay = monitor.damping_ratio * monitor.frequency;
             let remembered = (1.0 / decay.max(f64::MIN_POSITIVE)).min(elapsed);
             let steps = (remembered * per_step).max(1.0);
-            let scale = SAFETY * steps / (reference * task.tolerance);
+            let scale = (SAFETY * steps).max(1.0) / (reference * task.tolerance);
             let deflection = |i: usize| sight.drift[i][0];
             let force = |i: usize| {
                 let change = self.nodes.change[i];
-                let hidden = monitor.stiffness * deflection(i);
+                let [deflection, rate] = sight.drift[i];
+                let hidden = [monitor.stiffness * deflection, monitor.impedance * rate];
                 // Written so that a NaN stays one.
-                if hidden.abs() > change.abs() {
-                    hidden
-                } else {
-                    change
-                }
+                hidden.into_iter().fold(
+                    change,
+                    |most, one| {
+                        if one.abs() > most.abs() { one } else { most }
+                    },
+                )
             };
             let of_force = monitor.couplings.clone().map(force);
             let of_motion = monitor.motion.clone().map(deflection);

@@ -13,13 +13,17 @@ use super::sight::{Sight, instant};
 
 /// Accuracy of the time of an event, in parts of the way between two places.
 const ROOT_ACCURACY: f64 = 1e-12;
-/// A margin within this part of its range over the step is zero where the step was to end with it.
-const LANDED: f64 = 1e-7;
+/// A margin within this part of its range over the step is zero where the step was to end with it: this part of the
+/// tolerance, between these bounds.
+const LANDED: f64 = 1e-3;
+const LANDED_WITHIN: (f64, f64) = (1e-10, 1e-7);
 /// Margins [m, pitches] cannot be told from zero below this: rounding of large rotation angles.
 const SMALLEST_MARGIN: f64 = 1e-12;
 /// Bounds of the part of the range of a margin that interpolation may miss: the root of the tolerance, because energies go
 /// with squares of depths.
 const CLEAR: (f64, f64) = (1e-5, 1e-2);
+/// Margins that are larger than this part of their range at all nodes do not end between them: the dip of a parabola is a quarter.
+const DEEPEST_DIP: f64 = 0.5;
 /// Places between two nodes at which the interpolated motion is looked at.
 const BETWEEN: usize = 6;
 
@@ -68,6 +72,7 @@ impl Kernel {
         endings: &mut [Ending],
     ) -> Sighting {
         let clear = task.tolerance.sqrt().clamp(CLEAR.0, CLEAR.1);
+        let landed = (LANDED * task.tolerance).clamp(LANDED_WITHIN.0, LANDED_WITHIN.1);
         let mut earliest: Option<(usize, f64)> = None;
         for (law, (&piece, ending)) in pieces.iter().zip(endings).enumerate() {
             if *ending == Ending::Excused {
@@ -84,11 +89,14 @@ impl Kernel {
                 continue;
             };
             let missed = view.missed(&mut self.sight, &margins);
-            if margins.least() > missed {
+            let range = margins.range();
+            let holds = margins.least() > missed
+                && (margins.least() > DEEPEST_DIP * range
+                    || view.end(&mut self.sight, -missed).is_none());
+            if holds {
                 *ending = Ending::Watched;
                 continue;
             }
-            let range = margins.range();
             let allowed = (clear * range).max(SMALLEST_MARGIN);
             if missed > allowed {
                 // The error of cubics is of fourth order.
@@ -99,7 +107,7 @@ impl Kernel {
             }
             let mut slack = 0.0;
             if *ending == Ending::Landing {
-                slack = (LANDED * range).max(0.1 * SMALLEST_MARGIN);
+                slack = (landed * range).max(0.1 * SMALLEST_MARGIN);
                 if margins.0[0] <= slack {
                     continue; // the piece was at its end from the start
                 }

@@ -233,7 +233,8 @@ impl Kernel {
             *squares += span.step * sight.mean_square(monitor);
         }
         sight.move_on();
-        self.is_seen = false;
+        // Movements add up to the motion, but rotations that grow without end are seen anew before rounding does, too.
+        self.is_seen = task.forcing.is_timed();
         state.control.elapsed += span.step;
         state.time = span.end;
         self.counts.steps += 1;

@@ -88,20 +88,19 @@ impl Inputs {
         }
     }
 
-    /// Puts values in their places.
-    #[inline]
-    pub fn put(&mut self, values: impl Iterator<Item = (Place, f64)>) {
-        let torques = self.torques.as_mut_slice();
-        let (bases, forces) = (self.bases.as_mut_slice(), self.forces.as_mut_slice());
-        values.for_each(|(place, value)| match place {
-            Place::Torque(torque) => torques[torque as usize] = value,
+    /// Puts a value in its place.
+    #[inline(always)]
+    pub fn put(&mut self, place: Place, value: f64) {
+        let (bases, forces) = (&mut self.bases, &mut self.forces);
+        match place {
+            Place::Torque(torque) => self.torques[torque as usize] = value,
             Place::DisplacementX(bearing) => bases[bearing as usize].displacement[0] = value,
             Place::DisplacementY(bearing) => bases[bearing as usize].displacement[1] = value,
             Place::VelocityX(bearing) => bases[bearing as usize].velocity[0] = value,
             Place::VelocityY(bearing) => bases[bearing as usize].velocity[1] = value,
             Place::ForceX(force) => forces[force as usize][0] = value,
             Place::ForceY(force) => forces[force as usize][1] = value,
-        });
+        }
     }
 
     /// Takes over the values of others of the same shape; allocates nothing.

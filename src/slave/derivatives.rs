@@ -26,7 +26,7 @@ impl Slave {
                 return Err(Error::new(format!("the seed must be finite, found {seed}")));
             }
             let sum = direction.at(*known) + seed;
-            direction.put([(*known, sum)].into_iter());
+            direction.put(*known, sum);
         }
         let starting = self.life_cycle == LifeCycle::Initialization;
         let start = self.config.simulation.start;
@@ -102,7 +102,9 @@ impl Slave {
             )));
         }
         let mut rate = self.rate.take().unwrap_or_else(|| self.no_inputs());
-        rate.put(inputs.into_iter().zip(values.iter().copied()));
+        for (input, &value) in inputs.into_iter().zip(values) {
+            rate.put(input, value);
+        }
         self.rate = Some(rate);
         Ok(())
     }

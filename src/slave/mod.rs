@@ -37,6 +37,8 @@ pub struct Slave {
     /// The configuration with the parameters set so far.
     config: Config,
     inputs: Inputs,
+    /// What they were before a call that may be refused.
+    inputs_before: Inputs,
     /// How the inputs change in the next step, when the master says so.
     rate: Option<Inputs>,
     /// How they went on before, where it says nothing.
@@ -86,6 +88,7 @@ impl Slave {
         Ok(Slave {
             config: design.config.clone(),
             continuation: Continuation::new(&inputs),
+            inputs_before: inputs.clone(),
             inputs,
             rate: None,
             life_cycle: LifeCycle::Instantiated,

@@ -49,28 +49,42 @@ impl Slave {
 
     /// fmi2SetReal: all or nothing.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
-        let pairs = || references.iter().zip(values);
-        let design = &self.design;
-        let as_usual = |(&reference, value): (&u32, &f64)| {
-            design.input(reference).is_some() && value.is_finite()
-        };
-        if !pairs().all(as_usual) {
-            for (&reference, &value) in pairs() {
-                self.check_settable(reference, value)?;
-            }
-            for (&reference, &value) in pairs() {
-                self.set_parameter(reference, value)?;
-            }
+        self.inputs_before.overwrite(&self.inputs);
+        if !self.put_inputs(references, values) {
+            self.inputs.overwrite(&self.inputs_before);
+            self.put_checked(references, values)?;
         }
         if self.life_cycle != LifeCycle::Stepping && !references.is_empty() {
             self.simulation = None; // the equilibrium depends on parameters and inputs
         }
-        let design = &self.design;
-        let inputs =
-            pairs().filter_map(|(&reference, &value)| Some((design.input(reference)?, value)));
-        self.inputs.put(inputs);
         if let Some(running) = self.simulation.as_mut().map(Simulation::inputs_mut) {
             running.overwrite(&self.inputs); // also those that the last step continued there
+        }
+        Ok(())
+    }
+
+    /// Puts values where all of them are numbers for inputs, as in every step; otherwise gives `false` when some may be put.
+    fn put_inputs(&mut self, references: &[u32], values: &[f64]) -> bool {
+        let mut pairs = references.iter().zip(values);
+        pairs.all(|(&reference, &value)| match self.design.input(reference) {
+            Some(place) if value.is_finite() => {
+                self.inputs.put(place, value);
+                true
+            }
+            _ => false,
+        })
+    }
+
+    /// Puts values of inputs and parameters, or none of them and says what is wrong.
+    fn put_checked(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
+        for (&reference, &value) in references.iter().zip(values) {
+            self.check_settable(reference, value)?;
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            match self.design.input(reference) {
+                Some(place) => self.inputs.put(place, value),
+                None => self.set_parameter(reference, value)?,
+            }
         }
         Ok(())
     }

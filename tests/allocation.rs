@@ -53,6 +53,24 @@ fn steps_inputs_and_outputs_allocate_nothing() {
 }
 
 #[test]
+fn steps_of_a_housing_that_knows_its_bearings_allocate_nothing() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/known_box.toml");
+    let mut simulation = started(&std::fs::read_to_string(path).unwrap(), 1e-4);
+    let mut rate = simulation.inputs().clone();
+    rate.forces[0] = [2e4, -3e4];
+    simulation.advance_to(1e-5).unwrap();
+    let before = ALLOCATIONS.get();
+    for index in 1..=100 {
+        simulation.inputs_mut().forces[1][0] += 3.0;
+        let end = 2e-5 * f64::from(index);
+        simulation.advance_along(end, Some(&rate)).unwrap();
+        assert!(simulation.motion().point_acceleration(0)[0].abs() > 0.0);
+        assert!(simulation.carried().forces[0][0].is_finite());
+    }
+    assert_eq!(ALLOCATIONS.get() - before, 0);
+}
+
+#[test]
 fn impacts_free_rotation_and_radial_forces_allocate_nothing_either() {
     let names = [
         "rattle",

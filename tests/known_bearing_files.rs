@@ -70,13 +70,21 @@ fn what_is_wrong_with_a_known_bearing_names_place_and_rule() {
             "{problems:?}"
         );
     }
-    let nothing_known = "known_bearings: no [[point]] has the stiffness of a bearing";
-    for (file, message) in [
-        ("box.toml", nothing_known),
-        ("reducer.toml", "known_bearings: unknown key"),
-    ] {
-        let text = model_file(file).replace("[simulation]", "[simulation]\nknown_bearings = true");
-        let problems = load_beside(&text, &beside).unwrap_err();
-        assert!(problems[0].message.contains(message), "{problems:?}");
-    }
+    let in_a_train =
+        model_file("reducer.toml").replace("[simulation]", "[simulation]\nknown_bearings = true");
+    let problems = load_beside(&in_a_train, &beside).unwrap_err();
+    let unknown = "known_bearings: unknown key";
+    assert!(problems[0].message.contains(unknown), "{problems:?}");
+}
+
+#[test]
+fn a_housing_may_wait_for_its_bearings_but_says_so() {
+    let text =
+        model_file("box.toml").replace("[simulation]", "[simulation]\nknown_bearings = true");
+    let warnings = load_beside(&text, &beside).unwrap().warnings;
+    let message = "known_bearings: no [[point]] has the stiffness of a bearing; cargo xtask couple";
+    assert!(
+        warnings[0].message.contains(message) && warnings[0].spot.is_some(),
+        "{warnings:?}"
+    );
 }

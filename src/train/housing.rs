@@ -187,3 +187,13 @@ pub(super) fn points_at_rest(config: &Config, housing: &Housing) -> Vec<Problem>
     }
     warnings
 }
+
+/// Warns of bearings that are to be known of which nothing is.
+pub(super) fn no_known_bearings(config: &Config) -> Option<Problem> {
+    let mut points = config.housing.iter().flat_map(|housing| &housing.points);
+    let any = points.any(|point| point.bearing.is_some());
+    let message = "known_bearings: no [[point]] has the stiffness of a bearing; cargo xtask couple writes those of a train";
+    let place = Place::root().table("simulation");
+    (config.simulation.known_bearings > 0.0 && !any)
+        .then(|| place.problem("known_bearings", message.to_string()))
+}

@@ -5,7 +5,7 @@
 
 use super::basis::{check_basis, resolve_basis};
 use super::centres::open_loops;
-use super::housing::{points_at_rest, resolve_housing};
+use super::housing::{no_known_bearings, points_at_rest, resolve_housing};
 use super::meshes::{resolve_mesh, rings_meshed_from_outside};
 use super::phases;
 use super::rotors::resolve_rotor;
@@ -89,6 +89,7 @@ pub fn validate(config: &Config) -> Result<(GearTrain, Vec<Problem>), Vec<Proble
     warnings.extend(bows_without_force(&train));
     if let Some(housing) = &train.housing {
         warnings.extend(points_at_rest(config, housing));
+        warnings.extend(no_known_bearings(config));
     }
     Ok((train, warnings))
 }
@@ -119,13 +120,6 @@ fn check_simulation(place: &Place, config: &Config, problems: &mut Vec<Problem>)
             format!("must be from 0 (off) to 1 (on), found {share}")
         });
     }
-    let mut points = config.housing.iter().flat_map(|housing| &housing.points);
-    let known = points.any(|point| point.bearing.is_some());
-    rules.ensure(
-        "known_bearings",
-        known || simulation.known_bearings == 0.0,
-        || "no [[point]] has the stiffness of a bearing".to_string(),
-    );
     rules.positive("stop_time", simulation.stop_time, "s");
     rules.positive("step_size", simulation.step_size, "s");
 }

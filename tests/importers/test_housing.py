@@ -76,6 +76,7 @@ def test_what_a_housing_says_of_its_bearings_stays_and_springs_behind_a_load_are
     """Balls, F = c r^1.5, beside a linear spring under the load of the teeth; the other point has its own words."""
     housing = (ROOT / "tests/models/box.toml").read_text()
     housing = housing.replace('name = "pinion_left"', 'name = "pinion_left"\nstiffness = { xx = 1e7 }')
+    housing = housing.replace("[simulation]", "[simulation]\nknown_bearings = true")
     train = (ROOT / "tests/models/reducer.toml").read_text()
     damper = "damping = { xx = 600.0 }\n"
     assert train.count(damper) == 1
@@ -87,6 +88,7 @@ def test_what_a_housing_says_of_its_bearings_stays_and_springs_behind_a_load_are
     out = couple(str(tmp_path / "reducer.toml"), str(tmp_path / "box.toml"), tmp_path / "out", links)
     told, train = starts(out / "box.fmu"), starts(out / "reducer.fmu")
     assert told["pinion_left.stiffness.xx"] == told["pinion_left.stiffness.yy"] == 1e7 and "foot.stiffness.xx" not in told
+    assert told["simulation.known_bearings"] == 1.0
     # Along the load the balls are half as stiff again as across, whatever the load: dF/dr = 1.5 F/r.
     linear = np.array([[train[f"pinion_shaft.right.stiffness.{entry}"] for entry in row] for row in (("xx", "xy"), ("yx", "yy"))])
     found = np.array([[told[f"pinion_right.stiffness.{entry}"] for entry in row] for row in (("xx", "xy"), ("yx", "yy"))])

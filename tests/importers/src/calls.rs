@@ -70,7 +70,7 @@ impl Call {
     pub fn arguments(&self, fmu: &Fmu, time: f64) -> Arguments {
         let co_simulation = fmu.co_simulation();
         Arguments {
-            parameter: fmu.reference("simulation.tolerance"),
+            parameter: fmu.reference("simulation.input_extrapolation"),
             input: fmu.references(&Causality::Input)[0],
             output: fmu.references(&Causality::Output)[0],
             time,

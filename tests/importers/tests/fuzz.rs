@@ -7,7 +7,7 @@ use importers::{Fmu, fuzz};
 fn bounded(name: &str, cases: u64) {
     let test = fuzz::TESTS.into_iter().find(|test| test.0 == name);
     let test = test.expect("a test of this name");
-    for model in ["three_stage", "rattle", "run_up"] {
+    for model in ["three_stage", "rattle", "run_up", "known_box"] {
         let fmu = Arc::new(Fmu::unpack(model));
         let failures: Vec<String> = (0..cases)
             .filter_map(|seed| fuzz::run(test, &fmu, seed).err())

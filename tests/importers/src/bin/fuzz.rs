@@ -17,11 +17,12 @@ fn main() -> ExitCode {
         eprintln!("fuzz SECONDS SEED");
         return ExitCode::FAILURE;
     };
-    let fmus = ["three_stage", "rattle", "run_up"].map(|name| Arc::new(Fmu::unpack(name)));
+    let names = ["three_stage", "rattle", "run_up", "known_box"];
+    let fmus = names.map(|name| Arc::new(Fmu::unpack(name)));
     let (begin, mut seed) = (Instant::now(), first);
     while begin.elapsed() < Duration::from_secs(seconds) {
         for test in fuzz::TESTS {
-            let fmu = &fmus[usize::try_from(seed % 3).expect("less than 3")];
+            let fmu = &fmus[usize::try_from(seed % 4).expect("less than 4")];
             if let Err(failure) = fuzz::run(test, fmu, seed) {
                 eprintln!("{failure}");
                 return ExitCode::FAILURE;

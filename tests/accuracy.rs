@@ -1,7 +1,7 @@
 //! The promise of the tolerance on random trains: results at the default tolerance are within 1e-3 of a converged solution, and
 //! the error follows the tolerance.
 //!
-//! Authority: closed form, by convergence. `cargo xtask bench trains` measures the same for sixty trains.
+//! Authority: closed form, by convergence. `cargo xtask bench trains` measures the same for forty trains.
 
 mod support;
 

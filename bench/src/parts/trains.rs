@@ -13,7 +13,7 @@ use crate::series;
 use crate::table::Table;
 
 /// The trains.
-const SEEDS: core::ops::Range<u64> = 0..60;
+const SEEDS: core::ops::Range<u64> = 0..40;
 /// Decades of tolerance; the second is the default.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
 /// The converged solution.

@@ -136,12 +136,17 @@ def measure_energy(folder: Path) -> list[str]:
     return lines
 
 
+def in_short(name: str) -> str:
+    name = name.replace("`simulation.input_extrapolation` = 1", "inputs continued")
+    return name.replace("`simulation.known_bearings` = 1", "bearings known")
+
+
 def draw(found: dict[str, np.ndarray], picture: Path) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(13, 5), sharey=True, layout="constrained")
     for index, (ax, kind) in enumerate(zip(axes, KINDS)):
         for mark, (name, table) in zip("vo^psD*xP<>dh", found.items()):
             ax.loglog(1e6 * np.array(STEPS), 100 * np.where(table[:, index] < 2, table[:, index], np.nan), marker=mark,
-                      markersize=5, linewidth=1.2, label=name)
+                      markersize=5, linewidth=1.2, label=in_short(name))
         ax.axhline(1.0, color="black", linewidth=0.8, linestyle=":")
         ax.set(xlabel="communication step, us", title=kind)
         ax.grid(alpha=0.25, which="both")

@@ -82,8 +82,8 @@ impl KnownBearings {
                 (&mut block.damping, damping),
             ] {
                 for (push, entries) in own.iter().zip(planar.rows()) {
-                    for (move_, entry) in own.iter().zip(entries) {
-                        matrix.ger(entry, push, move_, 1.0);
+                    for (moved, entry) in own.iter().zip(entries) {
+                        matrix.ger(entry, push, moved, 1.0);
                     }
                 }
             }

@@ -2,10 +2,10 @@
 //!
 //! Every block that a coupling looks at and another one acts on joins the two. Over all blocks that is a sparse list of
 //! **pairs** (sensor, actuator), sorted by sensor; for one step length each pair has a number for the force at every node, for
-//! every point of the step, for deflection and rate:
+//! every node of the step, for deflection and rate there:
 //!
 //! ```text
-//!   d(point) = free response - sum over pairs and nodes of e_d F_actuator(node)          d' likewise with e_v
+//!   d_i = free response - sum over pairs and nodes j of e_d F_actuator(j)          d' likewise with e_v
 //! ```
 
 use core::ops::Range;

@@ -23,8 +23,9 @@ use super::scratch::Scratch;
 use super::shapes::Shapes;
 use super::sight::{Sight, instant};
 
-/// Coefficients are kept for this many step lengths at the most, and within this memory [bytes].
+/// Coefficients are kept for this many step lengths at the most, numbered by bytes, and within this memory [bytes].
 const LENGTHS: usize = 160;
+const _: () = assert!(LENGTHS <= 256);
 const MEMORY: usize = 16 << 20;
 /// Lengths are looked up by so many values of their bits.
 const LENGTHS_TOLD_APART: usize = 256;

@@ -4,7 +4,7 @@
 //!   compute        the coefficients of a step length
 //!   take loads     load = sum of columns times inputs
 //!   observe        deflections and rates = rows eta
-//!   look ahead     free responses at the points = rows (B eta + load) + rows load' + response to the harmonics
+//!   look ahead     free responses at the nodes = rows (B eta + load) + rows load' + response to the harmonics
 //!   solve lines    the forces at the nodes from these, where all laws are straight lines
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
 //!   read off       deflections, rates and readings of the system = rows eta

@@ -7,15 +7,14 @@
 //!   f_j(x)   = sum over k of l_jk m_k(x),   m_k(x) = integral of e^(B (x h - s)) (s/h)^k ds b = k! x^(k+1) h phi_(k+1)(B x h) b
 //! ```
 //!
-//! What the couplings see at x follows by the product with their rows. Lists run over parts or panels, then over what touches
-//! them, then over their states.
+//! What the couplings see at x follows by the product with their rows. How the lists run, `panel` says.
 
 use nalgebra::Complex;
 
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
 use super::lanes::{Quad, add_multiple, subtract_multiple};
-use super::panel::{Panels, Place};
+use super::panel::{Panels, Place, entries};
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
 use super::scratch::{Scratch, Share};
@@ -29,15 +28,15 @@ pub(super) struct Coefficients {
     pub(super) gain: BlockDiagonal,
     /// h^2 phi_2.
     pub(super) ramp_gain: BlockDiagonal,
-    /// What sensors read per B eta + load: per panel, sensor and state.
+    /// What sensors read per B eta + load: per look and state.
     pub(super) free: Vec<Readings>,
     /// The same per change of the load.
     pub(super) ramp: Vec<Readings>,
-    /// What the end takes from the forces at the nodes, -f_j: per part, actuator and quad of states.
+    /// What the end takes from the forces at the nodes, -f_j: per push and quad of states.
     pub(super) pushes: Vec<[Quad; NODES]>,
-    /// What it takes from cosine and sine of the angle of a harmonic: per part, harmonic and quad of states.
+    /// What it takes from cosine and sine of the angle of a harmonic: per response and quad of states.
     pub(super) responses: Vec<[Quad; 2]>,
-    /// What sensors read per cosine and sine of the angle of a harmonic: per panel, sensor and harmonic.
+    /// What sensors read per cosine and sine of the angle of a harmonic: per look and harmonic.
     pub(super) turning: Vec<[Readings; 2]>,
     /// e^(i w h) of every harmonic.
     pub(super) rotations: Vec<Complex<f64>>,
@@ -55,16 +54,14 @@ impl Coefficients {
         exchange: &Exchange,
         harmonics: usize,
     ) -> Coefficients {
-        let pushes = |part: &Part| part.actuators.len() * part.quads().len();
-        let responses = |part: &Part| part.harmonics.len() * part.quads().len();
         Coefficients {
             gain: BlockDiagonal::zero(parts),
             ramp_gain: BlockDiagonal::zero(parts),
-            free: vec![STILL; panels.states],
-            ramp: vec![STILL; panels.states],
-            pushes: vec![[[0.0; 4]; NODES]; parts.iter().map(pushes).sum()],
-            responses: vec![[[0.0; 4]; 2]; parts.iter().map(responses).sum()],
-            turning: vec![[STILL; 2]; panels.harmonics],
+            free: vec![STILL; panels.states()],
+            ramp: vec![STILL; panels.states()],
+            pushes: vec![[[0.0; 4]; NODES]; entries(&panels.pushes)],
+            responses: vec![[[0.0; 4]; 2]; entries(&panels.responses)],
+            turning: vec![[STILL; 2]; panels.turns.len()],
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
@@ -97,7 +94,6 @@ impl Coefficients {
         self.influences.clear();
         scratch.turn(frequencies, h);
         self.rotations.copy_from_slice(&scratch.turned[END]);
-        let (mut pushes, mut responses) = (0, 0);
         for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
             scratch.clear(part);
             for group in &part.groups {
@@ -109,13 +105,8 @@ impl Coefficients {
                 };
                 self.follow(share, frequencies, scratch);
             }
-            let quads = part.quads().len();
-            let own = &mut self.pushes[pushes..][..part.actuators.len() * quads];
-            combine_pushes(scratch, own);
-            pushes += own.len();
-            let own = &mut self.responses[responses..][..part.harmonics.len() * quads];
-            combine_responses(scratch, own);
-            responses += own.len();
+            self.combine_pushes(part, place, scratch);
+            self.combine_responses(part, place, scratch);
             add_influences(part, number, (exchange, &mut self.influences), scratch);
             self.compute_turning(part, place, scratch);
         }
@@ -245,6 +236,43 @@ impl Coefficients {
         }
     }
 
+    /// What a part takes from the forces at the nodes, from its moments at the end.
+    #[inline(always)]
+    fn combine_pushes(&mut self, part: &Part, place: &Place, scratch: &Scratch) {
+        let quads = part.quads().len();
+        let mut moments = scratch.moments.as_chunks::<4>().0;
+        for actuator in 0..part.actuators.len() {
+            let own = &mut self.pushes[place.pushes(actuator)..][..quads];
+            for (columns, moments) in own.iter_mut().zip(moments) {
+                for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
+                    *column = [0.0; 4];
+                    for (k, l) in l.iter().enumerate() {
+                        let ends = moments.each_ref().map(|moment| moment[k][END]);
+                        subtract_multiple(column, *l, &ends);
+                    }
+                }
+            }
+            moments = &moments[quads..];
+        }
+    }
+
+    /// What a part takes from the harmonics, from its responses at the end.
+    #[inline(always)]
+    fn combine_responses(&mut self, part: &Part, place: &Place, scratch: &Scratch) {
+        let quads = part.quads().len();
+        let mut responses = scratch.responses.as_chunks::<4>().0;
+        for harmonic in 0..part.harmonics.len() {
+            let own = &mut self.responses[place.responses(harmonic)..][..quads];
+            for (columns, responses) in own.iter_mut().zip(responses) {
+                *columns = [
+                    responses.each_ref().map(|[re, _]| re[END]),
+                    responses.each_ref().map(|[_, im]| -im[END]),
+                ];
+            }
+            responses = &responses[quads..];
+        }
+    }
+
     /// The response to the harmonics: Re of it times e^(i angle) at the start of the step.
     #[inline(always)]
     fn compute_turning(&mut self, part: &Part, place: &Place, scratch: &Scratch) {
@@ -259,33 +287,9 @@ impl Coefficients {
                         subtract_multiple(&mut sine[what], *row, im);
                     }
                 }
-                self.turning[place.harmonics(sensor) + number] = [cosine, sine];
+                self.turning[place.turns(sensor) + number] = [cosine, sine];
             }
         }
-    }
-}
-
-/// What a part takes from the forces at the nodes, from its moments at the end.
-#[inline(always)]
-fn combine_pushes(scratch: &Scratch, own: &mut [[Quad; NODES]]) {
-    for (columns, moments) in own.iter_mut().zip(scratch.moments.as_chunks::<4>().0) {
-        for (column, l) in columns.iter_mut().zip(&LAGRANGE) {
-            *column = [0.0; 4];
-            for (k, l) in l.iter().enumerate() {
-                subtract_multiple(column, *l, &moments.each_ref().map(|moment| moment[k][END]));
-            }
-        }
-    }
-}
-
-/// What a part takes from the harmonics, from its responses at the end.
-#[inline(always)]
-fn combine_responses(scratch: &Scratch, own: &mut [[Quad; 2]]) {
-    for (columns, responses) in own.iter_mut().zip(scratch.responses.as_chunks::<4>().0) {
-        *columns = [
-            responses.each_ref().map(|[re, _]| re[END]),
-            responses.each_ref().map(|[_, im]| -im[END]),
-        ];
     }
 }
 

@@ -14,7 +14,7 @@ use super::control::growth;
 use super::events::Sighting;
 use super::exchange::Exchange;
 use super::motion::Motion;
-use super::nodes::{Nodes, accuracy};
+use super::nodes::Nodes;
 use super::panel::Panels;
 use super::part::{Part, take_apart};
 use super::passes::{Compute, LookAhead, Move, Observe, ReadOff, SolveLines, TakeLoads};
@@ -218,7 +218,7 @@ impl Kernel {
         index: usize,
     ) {
         self.arch.dispatch(Move {
-            parts: &self.parts,
+            panels: &self.panels,
             coefficients: &self.lengths[index],
             motion: &mut self.motion,
             sight: &self.sight,
@@ -246,7 +246,7 @@ impl Method for Kernel {
     fn observe<F: Forcing>(&mut self, _: Task<'_, F>, _: &mut State) {
         if !self.is_seen {
             self.arch.dispatch(Observe {
-                panels: &self.panels.all,
+                panels: &self.panels,
                 states: &self.motion.states,
                 sight: &mut self.sight,
             });
@@ -287,7 +287,7 @@ impl Method for Kernel {
         }
         let coefficients = &self.lengths[index];
         let ahead = LookAhead {
-            panels: &self.panels.all,
+            panels: &self.panels,
             coefficients,
             motion: &mut self.motion,
             sight: &mut self.sight,
@@ -299,7 +299,7 @@ impl Method for Kernel {
                 ahead,
                 nodes: &mut self.nodes,
                 exchange: &self.exchange,
-                asked: (span.step, accuracy(task.tolerance)),
+                step: span.step,
             })
         } else {
             self.arch.dispatch(ahead);
@@ -311,7 +311,7 @@ impl Method for Kernel {
         };
         if !found {
             self.counts.rejected += 1;
-            if self.sight.forces.iter().all(|forces| forces[0].is_finite()) {
+            if self.sight.is_start_finite() {
                 return Ok(Outcome::Rejected { ratio: SHORTER });
             }
             return Err(StepError::NotFinite { time: span.start });

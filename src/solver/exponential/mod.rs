@@ -17,6 +17,7 @@
 mod block_diagonal;
 mod coefficients;
 mod control;
+mod elimination;
 mod equations;
 mod events;
 mod exchange;

@@ -1,5 +1,7 @@
 //! The motion of all parts in decoupled states.
 
+use core::ops::Range;
+
 use pulp::Simd;
 
 use super::super::Ramp;
@@ -131,17 +133,17 @@ impl Motion {
         }
     }
 
-    /// The states of a part grow by columns times factors.
+    /// Some states grow by columns times factors.
     #[inline(always)]
     pub(super) fn push<S: Simd, const N: usize>(
         &mut self,
         simd: S,
-        part: &Part,
+        quads: &Range<usize>,
         columns: &[[Quad; N]],
         factors: &[f64; N],
     ) {
         let factors = factors.map(|factor| [factor; 4]);
-        for (state, columns) in self.states[part.quads()].iter_mut().zip(columns) {
+        for (state, columns) in self.states[quads.clone()].iter_mut().zip(columns) {
             add_products(simd, factors.each_ref(), columns.each_ref(), state);
         }
     }

@@ -15,7 +15,7 @@ use super::polynomials::{CHECK_PLACES, CHECKS, END, LAGRANGE_AT_CHECKS, NODES, P
 use super::sight::{Sight, instant};
 
 /// Sweeps after which a step counts as too long.
-pub(super) const MOST_SWEEPS: usize = 25;
+const MOST_SWEEPS: usize = 25;
 /// Change of the forces in the last sweep relative to the tolerance, and the smallest one above rounding.
 const ACCURACY: (f64, f64) = (1e-3, 1e-13);
 
@@ -52,11 +52,10 @@ impl Nodes {
     pub(super) fn solve(
         &mut self,
         (exchange, influences): (&Exchange, &Influences),
-        (step, accuracy): (f64, f64),
+        step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let between = (exchange, influences);
-        let found = self.equations.solve(between, accuracy, sight);
+        let found = self.equations.solve((exchange, influences), sight);
         if found {
             sight.exert(exchange, influences);
             self.equations.compare(step, sight, &mut self.missing);
@@ -158,13 +157,13 @@ impl Nodes {
 }
 
 /// How accurately the forces are to be found, relative to their size.
-pub(super) fn accuracy(tolerance: f64) -> f64 {
+fn accuracy(tolerance: f64) -> f64 {
     (ACCURACY.0 * tolerance).max(ACCURACY.1)
 }
 
 /// Below this part of the largest force changes are rounding.
 #[inline(always)]
-pub(super) fn least_force(sight: &Sight) -> f64 {
+fn least_force(sight: &Sight) -> f64 {
     let sizes = sight.forces.iter().map(|forces| forces.map(f64::abs));
     let largest = sizes.fold([0.0; 4], |most, sizes| {
         core::array::from_fn(|i| larger(most[i], sizes[i]))

@@ -20,7 +20,7 @@ use super::exchange::Exchange;
 use super::lanes::{Quad, add_product, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
-use super::panel::{Panel, Panels};
+use super::panel::Panels;
 use super::part::Part;
 use super::rows::Rows;
 use super::scratch::Scratch;
@@ -48,14 +48,14 @@ pub(super) struct TakeLoads<'a> {
 
 /// What the couplings see at the start of a step.
 pub(super) struct Observe<'a> {
-    pub(super) panels: &'a [Panel],
+    pub(super) panels: &'a Panels,
     pub(super) states: &'a [Quad],
     pub(super) sight: &'a mut Sight,
 }
 
 /// What the couplings see at the nodes without forces.
 pub(super) struct LookAhead<'a> {
-    pub(super) panels: &'a [Panel],
+    pub(super) panels: &'a Panels,
     pub(super) coefficients: &'a Coefficients,
     pub(super) motion: &'a mut Motion,
     pub(super) sight: &'a mut Sight,
@@ -69,13 +69,13 @@ pub(super) struct SolveLines<'a> {
     pub(super) ahead: LookAhead<'a>,
     pub(super) nodes: &'a mut Nodes,
     pub(super) exchange: &'a Exchange,
-    /// The length of the step [s], and how accurate the forces are to be.
-    pub(super) asked: (f64, f64),
+    /// The length of the step [s].
+    pub(super) step: f64,
 }
 
 /// From the start of the step to its end.
 pub(super) struct Move<'a> {
-    pub(super) parts: &'a [Part],
+    pub(super) panels: &'a Panels,
     pub(super) coefficients: &'a Coefficients,
     pub(super) motion: &'a mut Motion,
     pub(super) sight: &'a Sight,
@@ -129,19 +129,16 @@ impl WithSimd for Observe<'_> {
         let [deflections, rates] = &mut self.sight.nodes[0];
         deflections.fill(0.0);
         rates.fill(0.0);
-        for panel in self.panels {
-            let own = &self.states[panel.quads.clone()];
-            let mut rows = panel.rows.as_slice();
-            for &sensor in &panel.sensors {
-                let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
-                for (states, [per_deflection, per_rate]) in own.iter().zip(rows) {
-                    add_product(&mut deflection, per_deflection, states);
-                    add_product(&mut rate, per_rate, states);
-                }
-                rows = &rows[own.len()..];
-                deflections[sensor] += sum(&deflection);
-                rates[sensor] += sum(&rate);
+        for look in &self.panels.looks {
+            let own = self.states[look.quads.clone()].iter();
+            let rows = &self.panels.rows[look.rows.clone()];
+            let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
+            for (states, [per_deflection, per_rate]) in own.zip(rows) {
+                add_product(&mut deflection, per_deflection, states);
+                add_product(&mut rate, per_rate, states);
             }
+            deflections[look.coupling] += sum(&deflection);
+            rates[look.coupling] += sum(&rate);
         }
     }
 }
@@ -152,40 +149,25 @@ impl LookAhead<'_> {
         let (motion, sight) = (&mut *self.motion, &mut *self.sight);
         motion.differentiate(simd, self.elapsed);
         sight.free.fill(STILL);
-        let Coefficients {
-            free,
-            ramp,
-            turning,
-            ..
-        } = self.coefficients;
-        let (mut free, mut ramp, mut turning) = (&free[..], &ramp[..], &turning[..]);
-        for panel in self.panels {
-            let derivative = &motion.derivative[panel.quads.clone()];
-            for &sensor in &panel.sensors {
-                let mut seen = sight.free[sensor];
-                accumulate_all(&mut seen, take(&mut free, panel.len()), derivative);
-                let ramp = take(&mut ramp, panel.len());
-                if motion.ramps {
-                    accumulate_all(&mut seen, ramp, &motion.load_rate[panel.quads.clone()]);
-                }
-                let turning = take(&mut turning, panel.harmonics.len());
-                for (&harmonic, [per_cosine, per_sine]) in panel.harmonics.iter().zip(turning) {
-                    let [cosine, sine] = self.turning.angles[harmonic];
-                    accumulate(&mut seen, cosine, per_cosine);
-                    accumulate(&mut seen, sine, per_sine);
-                }
-                sight.free[sensor] = seen;
+        let (panels, coefficients) = (self.panels, self.coefficients);
+        for look in &panels.looks {
+            let (quads, states, turns) = (&look.quads, &look.states, &look.turns);
+            let mut seen = sight.free[look.coupling];
+            let derivative = &motion.derivative[quads.clone()];
+            accumulate_all(&mut seen, &coefficients.free[states.clone()], derivative);
+            if motion.ramps {
+                let load_rate = &motion.load_rate[quads.clone()];
+                accumulate_all(&mut seen, &coefficients.ramp[states.clone()], load_rate);
             }
+            let turning = &coefficients.turning[turns.clone()];
+            for (&harmonic, both) in panels.turns[turns.clone()].iter().zip(turning) {
+                for (part, per_part) in self.turning.angles[harmonic].iter().zip(both) {
+                    accumulate(&mut seen, *part, per_part);
+                }
+            }
+            sight.free[look.coupling] = seen;
         }
     }
-}
-
-/// The first entries of a list, which then begins behind them.
-#[inline(always)]
-fn take<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {
-    let (first, others) = list.split_at(count);
-    *list = others;
-    first
 }
 
 impl WithSimd for LookAhead<'_> {
@@ -204,7 +186,7 @@ impl WithSimd for SolveLines<'_> {
     fn with_simd<S: Simd>(mut self, simd: S) -> bool {
         self.ahead.look(simd);
         let between = (self.exchange, &self.ahead.coefficients.influences);
-        self.nodes.solve(between, self.asked, self.ahead.sight)
+        self.nodes.solve(between, self.step, self.ahead.sight)
     }
 }
 
@@ -217,18 +199,14 @@ impl WithSimd for Move<'_> {
         let (gain, ramp_gain) = (&coefficients.gain, &coefficients.ramp_gain);
         motion.advance(simd, gain, ramp_gain);
         motion.advance_others(gain, ramp_gain);
-        let mut pushes = coefficients.pushes.as_slice();
-        let mut responses = coefficients.responses.as_slice();
-        for part in self.parts {
-            let quads = part.quads().len();
-            for &actuator in &part.actuators {
-                let forces = &self.sight.forces[actuator];
-                motion.push(simd, part, take(&mut pushes, quads), forces);
-            }
-            for (harmonic, _) in &part.harmonics {
-                let angle = &self.turning.angles[*harmonic];
-                motion.push(simd, part, take(&mut responses, quads), angle);
-            }
+        for push in &self.panels.pushes {
+            let columns = &coefficients.pushes[push.entries.clone()];
+            motion.push(simd, &push.quads, columns, &self.sight.forces[push.by]);
+        }
+        for response in &self.panels.responses {
+            let columns = &coefficients.responses[response.entries.clone()];
+            let angle = &self.turning.angles[response.by];
+            motion.push(simd, &response.quads, columns, angle);
         }
     }
 }

@@ -107,6 +107,21 @@ impl Sight {
         ]
     }
 
+    /// Whether the forces at the start are numbers.
+    pub(super) fn is_start_finite(&self) -> bool {
+        self.forces.iter().all(|forces| forces[0].is_finite())
+    }
+
+    /// Whether the forces at all nodes are numbers.
+    #[inline(always)]
+    pub(super) fn are_forces_finite(&self) -> bool {
+        let mut zeros = [0.0; 4];
+        for forces in &self.forces {
+            add_multiple(&mut zeros, 0.0, forces);
+        }
+        zeros == [0.0; 4]
+    }
+
     /// The step ends: the end becomes the start.
     pub(super) fn move_on(&mut self) {
         let [deflections, rates] = &mut self.nodes[0];

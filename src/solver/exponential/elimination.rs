@@ -1,0 +1,255 @@
+//! Linear equations between couplings, three unknowns each, solved by elimination.
+//!
+//! ```text
+//!   F_p + sum over q of A_pq F_q = r_p
+//!   forwards, p in order    A_qr -= A_qp A_pp^-1 A_pr,  r_q -= A_qp A_pp^-1 r_p       q, r: neighbours of p that are left
+//!   backwards               F_p = A_pp^-1 (r_p - sum over q of A_pq F_q)
+//! ```
+//!
+//! Which couplings have to do with each other never changes, so the order and the places of all blocks are found once. The next
+//! one is always one that joins the fewest others anew: where shafts and gears form a tree nothing fills up, and the work grows with
+//! the number of couplings.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::exchange::Pair;
+use super::lanes::{Quad, add_multiple, subtract_multiple};
+
+/// Unknowns of a coupling.
+const UNKNOWN: usize = 3;
+
+/// What the unknowns of one coupling do to another: a column for each. The first number of every column is zero, as is that
+/// of the unknowns: it stands for the start of the step, where nothing is unknown.
+pub(super) type Square = [Quad; UNKNOWN];
+
+/// The order of elimination.
+#[derive(Debug, Clone)]
+pub(super) struct Elimination {
+    pivots: Vec<Pivot>,
+    /// Number of blocks.
+    blocks: usize,
+}
+
+/// A coupling at its turn.
+#[derive(Debug, Clone)]
+struct Pivot {
+    coupling: usize,
+    /// Where its block on the diagonal is.
+    own: usize,
+    neighbours: Vec<Neighbour>,
+}
+
+/// A neighbour that is left then.
+#[derive(Debug, Clone)]
+struct Neighbour {
+    coupling: usize,
+    /// Where the blocks are that say what it does to the pivot, and the pivot to it.
+    to_pivot: usize,
+    from_pivot: usize,
+    /// Where its own row has the blocks of all neighbours.
+    row: Vec<usize>,
+}
+
+impl Elimination {
+    /// For blocks in these places, in the order of the pairs; more of them may follow.
+    pub(super) fn of(pairs: &[Pair], couplings: usize) -> Elimination {
+        let mut places: BTreeMap<Pair, usize> = pairs.iter().copied().zip(0..).collect();
+        let mut place = |sensor: usize, actuator: usize| {
+            let next = places.len();
+            *places.entry(Pair { sensor, actuator }).or_insert(next)
+        };
+        let mut graph = vec![BTreeSet::new(); couplings];
+        for pair in pairs.iter().filter(|pair| pair.sensor != pair.actuator) {
+            graph[pair.sensor].insert(pair.actuator);
+            graph[pair.actuator].insert(pair.sensor);
+        }
+        let mut left: BTreeSet<usize> = (0..couplings).collect();
+        let mut pivots = Vec::with_capacity(couplings);
+        while let Some(coupling) = next_of(&left, &graph) {
+            left.remove(&coupling);
+            let neighbours = core::mem::take(&mut graph[coupling]);
+            for &one in &neighbours {
+                graph[one].remove(&coupling);
+                let others = neighbours.iter().filter(|&&other| other != one);
+                graph[one].extend(others);
+            }
+            let neighbour = |&one: &usize| Neighbour {
+                coupling: one,
+                to_pivot: place(coupling, one),
+                from_pivot: place(one, coupling),
+                row: neighbours.iter().map(|&other| place(one, other)).collect(),
+            };
+            let neighbours = neighbours.iter().map(neighbour).collect();
+            pivots.push(Pivot {
+                coupling,
+                own: place(coupling, coupling),
+                neighbours,
+            });
+        }
+        Elimination {
+            pivots,
+            blocks: places.len(),
+        }
+    }
+
+    /// Number of blocks: those of the pairs, then those that fill up, to be set to zero before.
+    pub(super) fn blocks(&self) -> usize {
+        self.blocks
+    }
+
+    /// The identity is added to the blocks on the diagonal.
+    #[inline(always)]
+    pub(super) fn add_identity(&self, blocks: &mut [Square]) {
+        for pivot in &self.pivots {
+            for (i, column) in blocks[pivot.own].iter_mut().enumerate() {
+                column[i + 1] += 1.0;
+            }
+        }
+    }
+
+    /// Overwrites the right-hand sides with the unknowns, and the blocks. What stands first in every side stays.
+    #[inline(always)]
+    pub(super) fn solve(&self, blocks: &mut [Square], sides: &mut [Quad]) {
+        for pivot in &self.pivots {
+            let inverse = inverse_of(&blocks[pivot.own]);
+            blocks[pivot.own] = inverse;
+            let side = sides[pivot.coupling];
+            for neighbour in &pivot.neighbours {
+                let from_pivot = &blocks[neighbour.from_pivot];
+                let factor = inverse.each_ref().map(|column| product(from_pivot, column));
+                subtract_product(&mut sides[neighbour.coupling], &factor, &side);
+                for (other, &place) in pivot.neighbours.iter().zip(&neighbour.row) {
+                    let to_pivot = blocks[other.to_pivot];
+                    for (column, to_pivot) in blocks[place].iter_mut().zip(&to_pivot) {
+                        subtract_product(column, &factor, to_pivot);
+                    }
+                }
+            }
+        }
+        for pivot in self.pivots.iter().rev() {
+            let mut side = sides[pivot.coupling];
+            for neighbour in &pivot.neighbours {
+                let unknowns = &sides[neighbour.coupling];
+                subtract_product(&mut side, &blocks[neighbour.to_pivot], unknowns);
+            }
+            let solved = product(&blocks[pivot.own], &side);
+            sides[pivot.coupling] = [side[0], solved[1], solved[2], solved[3]];
+        }
+    }
+}
+
+/// The coupling whose elimination joins the fewest others that have nothing to do with each other yet; the first of these.
+fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
+    let joined_anew = |coupling: usize| {
+        let neighbours = &graph[coupling];
+        let strangers = |one: &usize| neighbours.difference(&graph[*one]).count() - 1;
+        neighbours.iter().map(strangers).sum::<usize>()
+    };
+    let mut best = None;
+    for &coupling in left {
+        let count = joined_anew(coupling);
+        if count == 0 {
+            return Some(coupling);
+        }
+        if best.is_none_or(|(least, _)| count < least) {
+            best = Some((count, coupling));
+        }
+    }
+    best.map(|(_, coupling)| coupling)
+}
+
+/// Matrix times unknowns.
+#[inline(always)]
+fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
+    let mut sum = [0.0; 4];
+    for (column, x) in columns.iter().zip(x) {
+        add_multiple(&mut sum, *x, column);
+    }
+    sum
+}
+
+/// sum -= matrix times unknowns.
+#[inline(always)]
+fn subtract_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+    for (column, x) in columns.iter().zip(x) {
+        subtract_multiple(sum, *x, column);
+    }
+}
+
+/// By cofactors.
+#[inline(always)]
+fn inverse_of([a, b, c]: &Square) -> Square {
+    let cross = |x: &Quad, y: &Quad| {
+        [
+            x[2] * y[3] - x[3] * y[2],
+            x[3] * y[1] - x[1] * y[3],
+            x[1] * y[2] - x[2] * y[1],
+        ]
+    };
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = a[1] * rows[0][0] + a[2] * rows[0][1] + a[3] * rows[0][2];
+    let scale = 1.0 / determinant;
+    let column = |j: usize| [0.0, rows[0][j], rows[1][j], rows[2][j]].map(|entry| scale * entry);
+    [column(0), column(1), column(2)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The pairs of couplings that have to do with each other, each with itself included.
+    fn pairs(couplings: usize, joined: &[[usize; 2]]) -> Vec<Pair> {
+        let own = (0..couplings).map(|one| [one, one]);
+        let both = joined.iter().flat_map(|&[a, b]| [[a, b], [b, a]]);
+        let mut pairs: Vec<Pair> = own
+            .chain(both)
+            .map(|[sensor, actuator]| Pair { sensor, actuator })
+            .collect();
+        pairs.sort_unstable();
+        pairs
+    }
+
+    #[test]
+    fn nothing_fills_up_where_gears_form_a_tree() {
+        // Meshes 0 to 3 on one shaft; behind two of them other shafts with a further mesh each.
+        let shaft = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+        let pairs = pairs(6, &[&shaft[..], &[[2, 4], [3, 5]]].concat());
+        assert_eq!(Elimination::of(&pairs, 6).blocks(), pairs.len());
+    }
+
+    #[test]
+    fn unknowns_solve_the_equations() {
+        // A ring, where blocks fill up, and a coupling alone.
+        let pairs = pairs(6, &[[0, 1], [1, 2], [2, 3], [3, 4], [4, 0]]);
+        let plan = Elimination::of(&pairs, 6);
+        assert!(plan.blocks() > pairs.len());
+        let entry = |number: usize, column: usize, row: usize| {
+            let odd = (7 * number + 5 * column + 3 * row) % 11;
+            0.08 * (odd as f64 - 5.0)
+        };
+        let mut blocks = vec![Square::default(); plan.blocks()];
+        for (number, block) in blocks[..pairs.len()].iter_mut().enumerate() {
+            *block = core::array::from_fn(|j| {
+                core::array::from_fn(|i| if i == 0 { 0.0 } else { entry(number, j, i) })
+            });
+        }
+        plan.add_identity(&mut blocks);
+        let matrix = blocks.clone();
+        let sides: Vec<Quad> = (0..6)
+            .map(|one| [9.0, 1.0, one as f64, -0.5 * one as f64])
+            .collect();
+        let mut unknowns = sides.clone();
+        plan.solve(&mut blocks, &mut unknowns);
+        let mut rest = sides;
+        for (pair, block) in pairs.iter().zip(&matrix) {
+            subtract_product(&mut rest[pair.sensor], block, &unknowns[pair.actuator]);
+        }
+        for (rest, unknowns) in rest.iter().zip(&unknowns) {
+            assert_eq!([rest[0], unknowns[0]], [9.0; 2]);
+            for rest in &rest[1..] {
+                // 1e-13: rounding of some dozen operations between numbers up to 10.
+                assert!(rest.abs() < 1e-13, "{rest}");
+            }
+        }
+    }
+}

@@ -6,9 +6,7 @@ use pulp::Arch;
 
 use super::super::grid::canonical;
 use super::super::march::{Ending, Method, Outcome, Span, Task};
-use super::super::{
-    Block, Counts, Forcing, Harmonic, Instant, Piece, Row, State, StepError, System,
-};
+use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::Coefficients;
 use super::control::growth;
 use super::events::Sighting;
@@ -45,7 +43,7 @@ pub(super) struct Kernel {
     panels: Panels,
     /// How displacements and velocities follow from the states.
     shapes: Arc<Shapes>,
-    /// How everything that is read off follows from them, and room for that.
+    /// How the readings follow from them, and room for those.
     reading: Rows,
     read: Vec<f64>,
     motion: Motion,
@@ -75,13 +73,14 @@ impl Kernel {
         let unused = Coefficients::unused(&parts, &panels, &exchange, harmonics.len());
         let affordable = (MEMORY / unused.bytes().max(1)).clamp(4, LENGTHS);
         let couplings = system.couplings.len();
+        let reading = reading(system, &parts);
         Kernel {
             blocks: system.blocks.clone(),
             used_slow: system.slow.clone(),
             present_slow: system.slow.clone(),
             shapes: Arc::new(Shapes::of(&parts)),
-            reading: reading(system, &parts),
-            read: vec![0.0; 2 * couplings + system.readings.len()],
+            read: reading.room(),
+            reading,
             motion: Motion::new(&parts, system.loads.len()),
             frequencies: harmonics.iter().map(|one| one.frequency).collect(),
             lengths: vec![unused; affordable],
@@ -131,9 +130,13 @@ impl Kernel {
     }
 
     /// Ends the call: writes the state.
-    pub(super) fn hand_back(&mut self, state: &mut State) -> Result<(), StepError> {
+    pub(super) fn hand_back<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        state: &mut State,
+    ) -> Result<(), StepError> {
+        self.observe(task, state);
         let numbers = self.arch.dispatch(ReadOff {
-            parts: &self.parts,
             motion: &self.motion,
             rows: &self.reading,
             numbers: &mut self.read,
@@ -141,12 +144,11 @@ impl Kernel {
         if !numbers {
             return Err(StepError::NotFinite { time: state.time });
         }
-        let [deflections, rates] = &mut state.seen;
-        let mut read = self.read.as_slice();
-        for list in [deflections, rates, &mut state.readings] {
-            let (own, others) = read.split_at(list.len());
-            list.copy_from_slice(own);
-            read = others;
+        for (list, seen) in state.seen.iter_mut().zip(&self.sight.nodes[0]) {
+            list.copy_from_slice(seen);
+        }
+        for (reading, read) in state.readings.iter_mut().zip(&self.read) {
+            *reading = *read;
         }
         state.pose.decouple(&self.motion.states, &self.shapes);
         Ok(())
@@ -234,8 +236,8 @@ impl Kernel {
             *squares += span.step * sight.mean_square(monitor);
         }
         sight.move_on();
-        // Movements add up to the motion, but rotations that grow without end are seen anew before rounding does, too.
-        self.is_seen = task.forcing.is_timed();
+        // Movements add up to the motion: rounding does, too, and at once where rotations grow without end.
+        self.is_seen = task.forcing.is_timed() && !state.turning.is_due();
         state.control.elapsed += span.step;
         state.time = span.end;
         self.counts.steps += 1;
@@ -358,14 +360,9 @@ impl Method for Kernel {
     }
 }
 
-/// Rows of deflections, then of rates, then of the readings.
+/// Rows of the readings.
 fn reading(system: &System, parts: &[Part]) -> Rows {
-    let none = Row::default();
-    let couplings = || system.couplings.iter();
-    let deflections = couplings().map(|coupling| [&coupling.row, &none]);
-    let rates = couplings().map(|coupling| [&none, &coupling.row]);
     let readings = system.readings.iter();
-    let readings = readings.map(|reading| [&reading.position, &reading.velocity]);
-    let numbers = deflections.chain(rates).chain(readings);
+    let numbers = readings.map(|reading| [&reading.position, &reading.velocity]);
     Rows::over(parts, &numbers.collect::<Vec<_>>())
 }

@@ -7,31 +7,45 @@ use pulp::Simd;
 use super::lanes::{Quad, add_products};
 use super::part::Part;
 
-/// The columns of all loads over the states of all parts, two side by side.
+/// The columns of all loads over the states of all parts, some side by side.
 #[derive(Debug, Clone)]
 pub(super) struct Loads {
-    /// Two loads on a part that both act on, or one and a column of zeros: their numbers, and the states in fours.
-    places: Vec<([usize; 2], Range<usize>)>,
+    shares: Vec<Share>,
     /// The entries of these, one after the other.
-    entries: Vec<[Quad; 2]>,
+    entries: Vec<[Quad; ABREAST]>,
+}
+
+/// So many columns are added at a time.
+const ABREAST: usize = 4;
+
+/// Some loads on one part: columns of zeros stand in for those that are missing.
+#[derive(Debug, Clone)]
+struct Share {
+    numbers: [usize; ABREAST],
+    /// The states among those of all parts, in fours, and the same among the entries.
+    quads: Range<usize>,
+    entries: Range<usize>,
 }
 
 impl Loads {
     pub(super) fn on(parts: &[Part]) -> Loads {
-        let (mut places, mut entries) = (Vec::new(), Vec::new());
+        let (mut shares, mut entries) = (Vec::new(), Vec::new());
         for part in parts {
-            for loads in part.loads.chunks(2) {
-                let (number, first) = &loads[0];
-                let (other, second) = loads.get(1).unwrap_or(&loads[0]);
-                places.push(([*number, *other], part.quads()));
-                let both = first.as_chunks().0.iter().zip(second.as_chunks().0);
-                entries.extend(both.map(|(&first, &second)| {
-                    let alone = loads.len() == 1;
-                    [first, if alone { [0.0; 4] } else { second }]
+            let quads = part.quads();
+            for loads in part.loads.chunks(ABREAST) {
+                let first = entries.len();
+                entries.extend((0..quads.len()).map(|quad| {
+                    let own = |(_, column): &(usize, Vec<f64>)| column.as_chunks::<4>().0[quad];
+                    core::array::from_fn(|i| loads.get(i).map_or([0.0; 4], own))
                 }));
+                shares.push(Share {
+                    numbers: core::array::from_fn(|i| loads.get(i).unwrap_or(&loads[0]).0),
+                    quads: quads.clone(),
+                    entries: first..entries.len(),
+                });
             }
         }
-        Loads { places, entries }
+        Loads { shares, entries }
     }
 
     /// Overwrites what a value of every load exerts.
@@ -43,13 +57,10 @@ impl Loads {
         target: &mut [Quad],
     ) {
         target.fill([0.0; 4]);
-        let mut entries = self.entries.as_slice();
-        for (numbers, quads) in &self.places {
-            let factors = numbers.map(|number| [value(number); 4]);
-            let own = &mut target[quads.clone()];
-            let (columns, others) = entries.split_at(own.len());
-            entries = others;
-            for (target, columns) in own.iter_mut().zip(columns) {
+        for share in &self.shares {
+            let factors = share.numbers.map(|number| [value(number); 4]);
+            let columns = &self.entries[share.entries.clone()];
+            for (target, columns) in target[share.quads.clone()].iter_mut().zip(columns) {
                 add_products(simd, factors.each_ref(), columns.each_ref(), target);
             }
         }

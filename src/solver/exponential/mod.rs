@@ -121,7 +121,7 @@ impl Exponential {
         let result = self
             .march
             .advance(&mut self.kernel, task, state, until)
-            .and_then(|()| self.kernel.hand_back(state));
+            .and_then(|()| self.kernel.hand_back(task, state));
         if result.is_err() {
             self.before.put_back(state);
         }

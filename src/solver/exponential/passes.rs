@@ -7,7 +7,7 @@
 //!   look ahead     free responses at the nodes = rows (B eta + load) + rows load' + response to the harmonics
 //!   solve lines    the forces at the nodes from these, where all laws are straight lines
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
-//!   read off       deflections, rates and readings of the system = rows eta
+//!   read off       the readings of the system = rows eta
 //! ```
 //!
 //! Each is one operation for `pulp`, compiled once for every width of vectors.
@@ -82,9 +82,8 @@ pub(super) struct Move<'a> {
     pub(super) turning: &'a Turning,
 }
 
-/// What is known of the motion at the end of a call. Gives whether the states are numbers.
+/// The readings at the end of a call. Gives whether the states are numbers.
 pub(super) struct ReadOff<'a> {
-    pub(super) parts: &'a [Part],
     pub(super) motion: &'a Motion,
     pub(super) rows: &'a Rows,
     pub(super) numbers: &'a mut [f64],
@@ -116,7 +115,7 @@ impl WithSimd for ReadOff<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let states = &self.motion.states;
-        self.rows.read(self.parts, states, self.numbers);
+        self.rows.read(states, self.numbers);
         self.motion.is_finite()
     }
 }

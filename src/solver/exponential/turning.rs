@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A product instead of sine and cosine. It is part of the state: every few steps the angles are computed anew from the
-//! time, before rounding adds up, and a restored solution has to do so at the same steps.
+//! time, before rounding adds up, and a restored solution has to do so at the same steps. What else adds up is then found anew, too.
 
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
@@ -33,9 +33,14 @@ impl Turning {
         }
     }
 
+    /// Whether it is time to find anew what has added up.
+    pub(super) fn is_due(&self) -> bool {
+        self.turns >= MOST_TURNS
+    }
+
     /// Computes the angles from the time where it is due.
     pub(super) fn find(&mut self, harmonics: &[Harmonic], time: f64) {
-        if self.turns < MOST_TURNS {
+        if !self.is_due() {
             return;
         }
         self.turns = 0;

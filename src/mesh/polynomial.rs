@@ -36,6 +36,7 @@ impl Polynomial {
     }
 
     /// p(t) at some places.
+    #[inline(always)]
     pub(super) fn values<const N: usize>(&self, places: [f64; N]) -> [f64; N] {
         let squares = places.map(|t| t * t);
         let (mut even, mut odd) = ([0.0; N], [0.0; N]);

@@ -141,6 +141,7 @@ impl Forcing for Excitation<'_> {
         self.model.radial.is_empty() && self.model.spins.is_empty()
     }
 
+    #[inline(always)] // into the loops over states, with their vectors
     fn lines_into<const N: usize>(
         &self,
         times: [f64; N],

@@ -57,6 +57,7 @@ pub(super) struct Span {
 
 impl Span {
     /// The time at a part of the step.
+    #[inline(always)]
     pub(super) fn at(&self, part: f64) -> f64 {
         if part == 1.0 {
             self.end

@@ -186,6 +186,7 @@ impl StiffnessLaw {
     }
 
     /// k [N/m] at some phases in their cycle, continued smoothly from the given piece.
+    #[inline(always)]
     pub fn values<const N: usize>(&self, cycles: [f64; N], piece: usize) -> [f64; N] {
         match self.shape {
             Shape::Constant { value } => [value; N],

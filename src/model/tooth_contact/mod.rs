@@ -52,6 +52,7 @@ impl Mesh {
     }
 
     /// The phase at a time, at prescribed speed.
+    #[inline(always)]
     pub(super) fn phase_at(&self, time: f64) -> Phase {
         Phase {
             value: self.start_phase + self.phase_rate * time,
@@ -120,6 +121,7 @@ impl Mesh {
 
     /// The force of a coupling of the mesh as lines, in some phases with their stiffnesses: each flank, or what the torque
     /// follows; nothing where a flank is open.
+    #[inline(always)]
     fn lines<const N: usize>(
         &self,
         number: usize,
@@ -149,6 +151,7 @@ impl Mesh {
     }
 
     /// k [N/m] in some phases, continued smoothly from a piece.
+    #[inline(always)]
     fn stiffnesses<const N: usize>(&self, piece: Piece, phases: &[Phase; N]) -> [f64; N] {
         let cycles = phases.map(|phase| phase.value - piece.origin);
         self.law
@@ -157,6 +160,7 @@ impl Mesh {
     }
 
     /// Overwrites the lines of the mesh's couplings at some times, at prescribed speed.
+    #[inline(always)]
     pub(super) fn lines_into<const N: usize>(
         &self,
         times: [f64; N],

@@ -41,6 +41,7 @@ impl Equations {
     }
 
     /// Draws the lines of a step. Gives the number of places they were drawn for.
+    #[inline(always)]
     pub(super) fn draw(&mut self, forcing: &impl Forcing, span: Span, pieces: &[Piece]) -> u64 {
         let [start, a, b, end] = PLACES.map(|place| span.at(place));
         let [first, second] = CHECK_PLACES.map(|place| span.at(place));

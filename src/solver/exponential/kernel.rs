@@ -284,9 +284,6 @@ impl Method for Kernel {
         let index = self.coefficients_for(canonical(span.step));
         state.turning.find(task.forcing.harmonics(), span.start);
         let straight = task.forcing.is_straight();
-        if straight {
-            self.nodes.draw(task, span, pieces);
-        }
         let coefficients = &self.lengths[index];
         let ahead = LookAhead {
             panels: &self.panels,
@@ -300,8 +297,10 @@ impl Method for Kernel {
             self.arch.dispatch(SolveLines {
                 ahead,
                 nodes: &mut self.nodes,
+                forcing: task.forcing,
+                span,
+                pieces,
                 exchange: &self.exchange,
-                step: span.step,
             })
         } else {
             self.arch.dispatch(ahead);

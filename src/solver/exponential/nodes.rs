@@ -42,8 +42,9 @@ impl Nodes {
     }
 
     /// Straight laws: draws their lines for a step.
-    pub(super) fn draw<F: Forcing>(&mut self, task: Task<'_, F>, span: Span, pieces: &[Piece]) {
-        self.evaluations += self.equations.draw(task.forcing, span, pieces);
+    #[inline(always)]
+    pub(super) fn draw(&mut self, forcing: &impl Forcing, span: Span, pieces: &[Piece]) {
+        self.evaluations += self.equations.draw(forcing, span, pieces);
     }
 
     /// Straight laws: solves for the forces at the nodes, sees how couplings move under them and looks for errors. Gives whether

@@ -14,7 +14,8 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::super::Ramp;
+use super::super::march::Span;
+use super::super::{Forcing, Piece, Ramp};
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
 use super::lanes::{Quad, add_product, sum};
@@ -65,12 +66,13 @@ pub(super) struct LookAhead<'a> {
 }
 
 /// The same, and the forces of laws that are straight lines. Gives whether they were found.
-pub(super) struct SolveLines<'a> {
+pub(super) struct SolveLines<'a, F> {
     pub(super) ahead: LookAhead<'a>,
     pub(super) nodes: &'a mut Nodes,
+    pub(super) forcing: &'a F,
+    pub(super) span: Span,
+    pub(super) pieces: &'a [Piece],
     pub(super) exchange: &'a Exchange,
-    /// The length of the step [s].
-    pub(super) step: f64,
 }
 
 /// From the start of the step to its end.
@@ -178,14 +180,15 @@ impl WithSimd for LookAhead<'_> {
     }
 }
 
-impl WithSimd for SolveLines<'_> {
+impl<F: Forcing> WithSimd for SolveLines<'_, F> {
     type Output = bool;
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> bool {
         self.ahead.look(simd);
         let between = (self.exchange, &self.ahead.coefficients.influences);
-        self.nodes.solve(between, self.step, self.ahead.sight)
+        self.nodes.draw(self.forcing, self.span, self.pieces);
+        self.nodes.solve(between, self.span.step, self.ahead.sight)
     }
 }
 

@@ -5,9 +5,9 @@
 //!   integral from 0 to T of e^(B (T-s)) s^k ds = k! T^(k+1) phi_(k+1)(B T)
 //! ```
 //!
-//! Small arguments: Taylor's series of the highest order, then downwards (no cancellation). A 2 x 2 matrix with
-//! eigenvalues a +- i w: f(B) = Re f(lambda) + Im f(lambda) / w (B - a), a line. Everything else: the argument is halved until
-//! the series serves, then doubled again:
+//! Small arguments: Taylor's series of the highest order, then downwards (no cancellation). Matrices of one or two rows are
+//! like numbers (`small`, `numbers`). Everything else: the argument is halved until the series serves, then
+//! doubled again:
 //!
 //! ```text
 //!   phi_k(2 z) = 2^-k [ e^z phi_k(z) + sum over j = 1 .. k of phi_j(z) / (k-j)! ]
@@ -15,31 +15,21 @@
 //!
 //! Sources: Hochbruck, Ostermann, Acta Numerica 19 (2010), 2.1; doubling: Skaflestad, Wright, Appl. Numer. Math. 59 (2009).
 
-mod scalar;
+mod numbers;
+mod small;
 #[cfg(test)]
 mod tests;
 
 use nalgebra::{Complex, DMatrix};
 
 use super::add_scaled;
-use scalar::{INVERSE_FACTORIAL, RECIPROCAL, SERIES_RADIUS, complex_phi_functions, terms};
+use numbers::{INVERSE_FACTORIAL, RECIPROCAL, SERIES_RADIUS, terms};
 
-pub use scalar::PHI_ORDERS;
+pub use numbers::{Numbers, PHI_ORDERS};
+pub use small::SmallPhi;
 
-/// Below this |(lambda - i w) T| the response to an oscillator is taken from the series: the difference of two exponentials
-/// would lose digits.
-const RESONANT: f64 = 1e-2;
 /// Arguments beyond 2^60 have lost all digits of their phase.
 const MOST_HALVINGS: u32 = 60;
-
-/// A function of a matrix B of one or two rows: level + slope (B - a), a half the sum of the diagonal.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Line {
-    /// The part along the identity.
-    pub level: f64,
-    /// The part along B - a.
-    pub slope: f64,
-}
 
 /// phi_0 to phi_6 of matrices up to a fixed size, computed without allocation.
 #[derive(Debug, Clone)]
@@ -51,8 +41,6 @@ pub struct PhiFunctions {
     argument: Vec<f64>,
     product: Vec<f64>,
     doubled: Vec<f64>,
-    /// The eigenvalue of the latest matrix and its e^(lambda T), where it is a pair of complex ones.
-    pair: Option<(Complex<f64>, Complex<f64>)>,
     /// The oscillator beside the largest matrix; `None` in the functions that serve it.
     augmented: Option<Box<PhiFunctions>>,
 }
@@ -74,7 +62,6 @@ impl PhiFunctions {
             argument: square.clone(),
             product: square.clone(),
             doubled: vec![0.0; PHI_ORDERS * square.len()],
-            pair: None,
             augmented: None,
         }
     }
@@ -92,67 +79,7 @@ impl PhiFunctions {
         for (target, value) in self.argument.iter_mut().zip(matrix.iter()) {
             *target = value * time;
         }
-        self.pair = None;
         self.double_up(m);
-    }
-
-    /// The same for a matrix of one or two rows, whose functions are all lines; `None` for a larger one.
-    pub fn evaluate_small(
-        &mut self,
-        matrix: &DMatrix<f64>,
-        time: f64,
-    ) -> Option<[Line; PHI_ORDERS]> {
-        let m = matrix.nrows();
-        if m == 1 {
-            self.pair = None;
-            let functions = complex_phi_functions(Complex::new(matrix[(0, 0)] * time, 0.0));
-            let line = |phi: Complex<f64>| Line {
-                level: phi.re,
-                slope: 0.0,
-            };
-            return Some(functions.map(line));
-        }
-        if m != 2 {
-            return None;
-        }
-        // With a small w the formula would divide rounding by w; the series has rounding of its argument's size only.
-        let well_apart = |eigenvalue: &Complex<f64>| {
-            let value = eigenvalue * time;
-            let series = value.l1_norm() <= SERIES_RADIUS;
-            value.im > 1e-3 * (value.re.abs() + if series { 0.0 } else { 1.0 })
-        };
-        if let Some(eigenvalue) = complex_pair(matrix).filter(well_apart) {
-            let functions = complex_phi_functions(eigenvalue * time);
-            self.pair = Some((eigenvalue, functions[0]));
-            let per_frequency = 1.0 / eigenvalue.im;
-            return Some(functions.map(|phi| Line {
-                level: phi.re,
-                slope: phi.im * per_frequency,
-            }));
-        }
-        self.evaluate(matrix, time);
-        let [a, b, c, d] = [0, 1, 2, 3].map(|entry| matrix[entry]);
-        let shifted = [0.5 * (a - d), b, c];
-        let (place, largest) =
-            shifted
-                .iter()
-                .enumerate()
-                .fold((0, 0.0), |most: (usize, f64), (place, entry)| {
-                    if entry.abs() > most.1.abs() {
-                        (place, *entry)
-                    } else {
-                        most
-                    }
-                });
-        let line = |k: usize| {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|entry| self.get(k)[entry]);
-            let part = [0.5 * (a - d), b, c][place];
-            Line {
-                level: 0.5 * (a + d),
-                slope: if largest == 0.0 { 0.0 } else { part / largest },
-            }
-        };
-        Some(core::array::from_fn(line))
     }
 
     /// The argument is halved until the series serves, then doubled again.
@@ -222,38 +149,15 @@ impl PhiFunctions {
         self.values[..used].copy_from_slice(&self.doubled[..used]);
     }
 
-    /// The response of x' = B x + Re(load e^(i w t)) from rest over a time T: x(T) = Re(result). B T is the latest argument,
-    /// `turned` is e^(i w T).
-    ///
-    /// ```text
-    ///   result = integral from 0 to T of e^(B (T-s)) e^(i w s) ds load = f(B) load
-    ///   f(z) = (e^(z T) - e^(i w T)) / (z - i w) = T e^(i w T) phi_1((z - i w) T)            exact at resonance too
-    /// ```
+    /// The response of x' = B x + Re(load e^(i w t)) from rest over a time T: x(T) = Re(result).
     pub fn oscillator_response(
         &mut self,
         (matrix, time): (&DMatrix<f64>, f64),
-        (frequency, turned): (f64, Complex<f64>),
+        frequency: f64,
         load: &[Complex<f64>],
         result: &mut [Complex<f64>],
     ) {
-        if let (Some((value, grown)), [one, two]) = (self.pair, load) {
-            let response = |value: Complex<f64>, grown: Complex<f64>| {
-                let apart = value - Complex::new(0.0, frequency);
-                if apart.l1_norm() * time < RESONANT {
-                    turned * time * complex_phi_functions(apart * time)[1]
-                } else {
-                    (grown - turned) / apart
-                }
-            };
-            // Lagrange's form of f(B) on the two eigenvalues a +- i w.
-            let (upper, lower) = (response(value, grown), response(value.conj(), grown.conj()));
-            let difference = (upper - lower) * (0.5 / value.im);
-            let slope = Complex::new(difference.im, -difference.re);
-            let level = upper - slope * value;
-            let product = |i: usize| one * matrix[(i, 0)] + two * matrix[(i, 1)];
-            result[0] = level * one + slope * product(0);
-            result[1] = level * two + slope * product(1);
-        } else if let Some(augmented) = &mut self.augmented {
+        if let Some(augmented) = &mut self.augmented {
             augmented.respond(matrix, time, frequency, load, result);
         }
     }
@@ -306,15 +210,4 @@ fn set_diagonal(matrix: &mut [f64], m: usize, value: f64) {
         .iter_mut()
         .step_by(m + 1)
         .for_each(|entry| *entry = value);
-}
-
-/// The eigenvalue with positive imaginary part of a 2 x 2 matrix that has one.
-fn complex_pair(matrix: &DMatrix<f64>) -> Option<Complex<f64>> {
-    if matrix.nrows() != 2 {
-        return None;
-    }
-    let half_difference = 0.5 * (matrix[(0, 0)] - matrix[(1, 1)]);
-    let discriminant = half_difference * half_difference + matrix[(0, 1)] * matrix[(1, 0)];
-    let real = 0.5 * (matrix[(0, 0)] + matrix[(1, 1)]);
-    (discriminant < 0.0).then(|| Complex::new(real, (-discriminant).sqrt()))
 }

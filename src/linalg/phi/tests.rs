@@ -1,6 +1,5 @@
 //! Phi functions against series, identities and each other.
 
-use super::scalar::rotation;
 use super::*;
 
 /// phi_k of a diagonalizable matrix by its eigenvalues: V f(L) V^-1.
@@ -16,10 +15,13 @@ fn rotated(values: [f64; 2]) -> (DMatrix<f64>, impl Fn([f64; 2]) -> DMatrix<f64>
 fn functions(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
     let m = matrix.nrows();
     let mut functions = PhiFunctions::new(m);
-    if let Some(lines) = functions.evaluate_small(matrix, 1.0) {
+    if let Some(small) = SmallPhi::of(matrix, [1.0], &mut functions) {
         let shift = DMatrix::identity(m, m) * (matrix.trace() / m as f64);
         let shifted = matrix - shift;
-        return lines.map(|line| DMatrix::identity(m, m) * line.level + &shifted * line.slope);
+        let identity = DMatrix::identity(m, m);
+        return small
+            .phi
+            .map(|line| &identity * line.re[0] + &shifted * line.im[0]);
     }
     functions.evaluate(matrix, 1.0);
     core::array::from_fn(|k| DMatrix::from_column_slice(m, m, functions.get(k)))
@@ -34,7 +36,8 @@ fn by_doubling(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
 }
 
 fn scalar(z: f64) -> [f64; PHI_ORDERS] {
-    complex_phi_functions(Complex::new(z, 0.0)).map(|value| value.re)
+    let matrix = DMatrix::from_element(1, 1, z);
+    functions(&matrix).map(|value| value[(0, 0)])
 }
 
 #[test]
@@ -88,22 +91,41 @@ fn oscillator_response_is_the_same_through_formula_and_augmentation_and_at_reson
     for (a, frequency) in [(-0.2, 3.0), (0.0, 7.0), (0.0, 7.0 + 1e-9), (-1.0, -20.0)] {
         let matrix = DMatrix::from_row_slice(2, 2, &[a, -w, w, a]);
         let mut response = PhiFunctions::new(3);
-        let mut formula = [Complex::new(0.0, 0.0); 2];
-        let driven = (frequency, rotation(frequency * time));
-        assert!(response.evaluate_small(&matrix, time).is_some());
-        response.oscillator_response((&matrix, time), driven, &load, &mut formula);
+        let (sine, cosine) = libm::sincos(frequency * time);
+        let turned = Numbers::<1>::all(Complex::new(cosine, sine));
+        let small = SmallPhi::of(&matrix, [time], &mut response).unwrap();
+        let formula = small.oscillator_response(&matrix, (frequency, &turned), &load);
+        let formula = formula.unwrap().map(|response| response.get(0));
         // The same pair beside an unrelated state takes the general way.
         let mut larger = DMatrix::zeros(3, 3);
         larger.view_mut((0, 0), (2, 2)).copy_from(&matrix);
         let padded = [load[0], load[1], Complex::new(0.0, 0.0)];
         let mut general = [Complex::new(0.0, 0.0); 3];
-        response.evaluate(&larger, time);
-        response.oscillator_response((&larger, time), driven, &padded, &mut general);
+        response.oscillator_response((&larger, time), frequency, &padded, &mut general);
         for (one, two) in formula.iter().zip(&general) {
             assert!(
                 (one - two).l1_norm() < 1e-12,
                 "{a} {frequency}: {one} {two}"
             );
+        }
+    }
+}
+
+#[test]
+fn times_do_not_meddle_with_each_other() {
+    // Some by series, some by the exponential, near the border between both.
+    let matrix = DMatrix::from_row_slice(2, 2, &[-0.2, -3.0, 3.0, -0.2]);
+    let times = [0.05, 0.3, 0.32, 1.7];
+    let mut general = PhiFunctions::new(2);
+    let all = SmallPhi::of(&matrix, times, &mut general).unwrap();
+    for (i, time) in times.into_iter().enumerate() {
+        let alone = SmallPhi::of(&matrix, [time], &mut general).unwrap();
+        for (k, (all, alone)) in all.phi.iter().zip(&alone.phi).enumerate() {
+            let both = [(all.re, alone.re), (all.im, alone.im)];
+            for (all, alone) in both {
+                // 1e-15: series of different length.
+                assert!((all[i] - alone[0]).abs() <= 1e-15, "phi_{k} at {time}");
+            }
         }
     }
 }

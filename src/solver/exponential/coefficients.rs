@@ -19,7 +19,23 @@ use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
 use super::scratch::{Scratch, Share};
 use super::sight::{Readings, STILL, both};
-use crate::linalg::PHI_ORDERS;
+use crate::linalg::{Numbers, PHI_ORDERS, SmallPhi};
+
+/// k! x^(k+1) at the nodes.
+const MOMENTS: [Quad; POWERS] = {
+    let mut moments = [[0.0; NODES]; POWERS];
+    let (mut k, mut power) = (0, PLACES);
+    while k < POWERS {
+        let mut node = 0;
+        while node < NODES {
+            moments[k][node] = FACTORIAL[k] * power[node];
+            power[node] *= PLACES[node];
+            node += 1;
+        }
+        k += 1;
+    }
+    moments
+};
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
@@ -42,9 +58,6 @@ pub(super) struct Coefficients {
     pub(super) rotations: Vec<Complex<f64>>,
     pub(super) influences: Influences,
 }
-
-/// A function of a group of one or two states at the nodes: levels and slopes.
-type Lines = [Quad; 2];
 
 impl Coefficients {
     /// Room for the coefficients of these parts under so many harmonics.
@@ -93,7 +106,9 @@ impl Coefficients {
     ) {
         self.influences.clear();
         scratch.turn(frequencies, h);
-        self.rotations.copy_from_slice(&scratch.turned[END]);
+        for (rotation, turned) in self.rotations.iter_mut().zip(&scratch.turned) {
+            *rotation = turned.get(END);
+        }
         for (number, (part, place)) in parts.iter().zip(&panels.of_parts).enumerate() {
             scratch.clear(part);
             for group in &part.groups {
@@ -116,24 +131,19 @@ impl Coefficients {
     #[inline(always)]
     fn follow(&mut self, share: Share<'_>, frequencies: &[f64], scratch: &mut Scratch) {
         let matrix = &share.group.matrix;
-        let mut lines: [Lines; PHI_ORDERS] = Default::default();
-        for node in 1..NODES {
-            let time = PLACES[node] * share.h;
-            match scratch.phi.evaluate_small(matrix, time) {
-                Some(phi) => {
-                    for ([levels, slopes], phi) in lines.iter_mut().zip(phi) {
-                        (levels[node], slopes[node]) = (phi.level, phi.slope);
-                    }
-                }
-                None => {
-                    scratch.phi.evaluate(matrix, time);
-                    self.follow_block(share, node, scratch);
-                }
-            }
-            scratch.respond(share, frequencies, node);
+        let mut times = PLACES.map(|x| x * share.h);
+        times[0] = times[1]; // any: at the start nothing has happened
+        if let Some(small) = SmallPhi::of(matrix, times, &mut scratch.phi) {
+            self.follow_lines(share, &small.phi, &mut scratch.moments);
+            scratch.respond_small(share, frequencies, &small);
+            return;
         }
-        if matrix.nrows() <= 2 {
-            self.follow_lines(share, &lines, &mut scratch.moments);
+        for (node, place) in PLACES.into_iter().enumerate().skip(1) {
+            scratch.phi.evaluate(matrix, place * share.h);
+            self.follow_block(share, node, scratch);
+        }
+        for number in 0..share.part.harmonics.len() {
+            scratch.respond(share, frequencies, number);
         }
     }
 
@@ -142,7 +152,7 @@ impl Coefficients {
     fn follow_lines(
         &mut self,
         share: Share<'_>,
-        phi: &[Lines; PHI_ORDERS],
+        phi: &[Numbers<NODES>; PHI_ORDERS],
         moments: &mut [[Quad; POWERS]],
     ) {
         let Share {
@@ -159,7 +169,7 @@ impl Coefficients {
             (squares, phi[2], &mut self.ramp_gain, &mut self.ramp),
         ];
         for (factors, phi, gain, seen) in responses {
-            let [level, slope] = phi.map(|part| times_each(&part, &factors));
+            let [level, slope] = parts_of(&phi, &factors);
             gain.set_line(part, group, level[END], slope[END]);
             for sensor in 0..part.sensors.len() {
                 for state in own.clone() {
@@ -174,12 +184,8 @@ impl Coefficients {
                 }
             }
         }
-        let (factors, mut power) = (FACTORIAL, [h; NODES]);
-        let phi: [Lines; POWERS] = core::array::from_fn(|k| {
-            power = times_each(&power, &PLACES);
-            let factor = power.map(|power| factors[k] * power);
-            phi[k + 1].map(|part| times_each(&part, &factor))
-        });
+        let phi: [[Quad; 2]; POWERS] =
+            core::array::from_fn(|k| parts_of(&phi[k + 1], &MOMENTS[k].map(|moment| moment * h)));
         let columns = part.actuator_columns.as_slice();
         let slopes = part.actuator_slopes.as_slice();
         for actuator in 0..part.actuators.len() {
@@ -221,16 +227,15 @@ impl Coefficients {
                 }
             }
         }
-        let mut power = h;
-        for (k, factor) in FACTORIAL.into_iter().enumerate() {
-            power *= PLACES[node];
+        for (k, moments) in MOMENTS.iter().enumerate() {
+            let factor = moments[node] * h;
             let phi = scratch.phi.get(k + 1);
             for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
                 let own = &column.as_slice()[first..first + m];
                 let moments = &mut scratch.moments[actuator * states + first..][..m];
                 for (i, moment) in moments.iter_mut().enumerate() {
                     let terms = own.iter().enumerate().map(|(j, own)| phi[i + j * m] * own);
-                    moment[k][node] = factor * power * terms.sum::<f64>();
+                    moment[k][node] = factor * terms.sum::<f64>();
                 }
             }
         }
@@ -305,18 +310,33 @@ fn add_influences(
     let moments = scratch.moments.chunks_exact(states.max(1));
     for (actuator, moments) in moments.take(part.actuators.len()).enumerate() {
         for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
-            let mut seen = [[[0.0; 4]; POWERS]; 2];
-            for (row, moment) in rows.iter().zip(moments) {
-                for (seen, entry) in seen.iter_mut().zip(row) {
-                    for (seen, moment) in seen.iter_mut().zip(moment) {
-                        add_multiple(seen, *entry, moment);
-                    }
-                }
-            }
+            let seen = [read(rows, moments, 0), read(rows, moments, 1)];
             let entry = (number, actuator * part.sensors.len() + sensor);
             influences.add(exchange, entry, &seen);
         }
     }
+}
+
+/// What a sensor reads of moments: deflections (0) or rates (1).
+#[inline(always)]
+fn read(rows: &[[f64; 2]], moments: &[[Quad; POWERS]], what: usize) -> [Quad; POWERS] {
+    let mut seen = [[0.0; 4]; POWERS];
+    for (row, moment) in rows.iter().zip(moments) {
+        for (seen, moment) in seen.iter_mut().zip(moment) {
+            add_multiple(seen, row[what], moment);
+        }
+    }
+    seen
+}
+
+/// A function, level and slope along S, times factors at the nodes, of which that at the start is zero.
+#[inline(always)]
+fn parts_of(phi: &Numbers<NODES>, factors: &Quad) -> [Quad; 2] {
+    [&phi.re, &phi.im].map(|part| {
+        let mut product = times_each(part, factors);
+        product[0] = 0.0; // also where the function is infinite
+        product
+    })
 }
 
 /// Element by element.

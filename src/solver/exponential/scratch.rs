@@ -6,7 +6,7 @@ use super::lanes::Quad;
 use super::panel::Place;
 use super::part::Part;
 use super::polynomials::{NODES, PLACES, POWERS};
-use crate::linalg::{Group, PhiFunctions};
+use crate::linalg::{Group, Numbers, PhiFunctions, SmallPhi};
 
 /// Room for computing coefficients.
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ pub(super) struct Scratch {
     /// The same of one group at one node.
     response: Vec<Complex<f64>>,
     /// e^(i w x h) of all harmonics at the nodes.
-    pub(super) turned: [Vec<Complex<f64>>; NODES],
+    pub(super) turned: Vec<Numbers<NODES>>,
 }
 
 /// One group of a part in a step.
@@ -49,16 +49,15 @@ impl Scratch {
             moments: vec![[[0.0; 4]; POWERS]; actuated],
             responses: vec![[[0.0; 4]; 2]; driven],
             response: vec![still; group],
-            turned: core::array::from_fn(|_| vec![still; harmonics]),
+            turned: vec![Numbers::ZERO; harmonics],
         }
     }
 
     /// Turns the harmonics to the nodes.
     pub(super) fn turn(&mut self, frequencies: &[f64], h: f64) {
-        for (turned, x) in self.turned.iter_mut().zip(PLACES) {
-            for (turned, frequency) in turned.iter_mut().zip(frequencies) {
-                let (sine, cosine) = libm::sincos(frequency * x * h);
-                *turned = Complex::new(cosine, sine);
+        for (turned, frequency) in self.turned.iter_mut().zip(frequencies) {
+            for (i, x) in PLACES.into_iter().enumerate() {
+                (turned.im[i], turned.re[i]) = libm::sincos(frequency * x * h);
             }
         }
     }
@@ -69,17 +68,43 @@ impl Scratch {
         self.responses[..part.len() * part.harmonics.len()].fill([[0.0; 4]; 2]);
     }
 
-    /// The responses of a group to the harmonics at a node, whose functions were evaluated last.
-    pub(super) fn respond(&mut self, share: Share<'_>, frequencies: &[f64], node: usize) {
-        let Share { part, group, h, .. } = share;
-        let matrix = &group.matrix;
-        let m = matrix.nrows();
+    /// The responses of a small group to the harmonics.
+    #[inline(always)]
+    pub(super) fn respond_small(
+        &mut self,
+        share: Share<'_>,
+        frequencies: &[f64],
+        small: &SmallPhi<NODES>,
+    ) {
+        let Share { part, group, .. } = share;
+        let m = group.matrix.nrows();
         for (number, (harmonic, load)) in part.harmonics.iter().enumerate() {
-            let driven = (frequencies[*harmonic], self.turned[node][*harmonic]);
-            let block = (matrix, PLACES[node] * h);
+            let driven = (frequencies[*harmonic], &self.turned[*harmonic]);
             let load = &load[group.first..][..m];
+            let Some(responses) = small.oscillator_response(&group.matrix, driven, load) else {
+                self.respond(share, frequencies, number);
+                continue;
+            };
+            let targets = &mut self.responses[number * part.len() + group.first..];
+            for (target, Numbers { re, im }) in targets.iter_mut().zip(responses) {
+                *target = [re, im];
+                // At the start nothing has happened.
+                (target[0][0], target[1][0]) = (0.0, 0.0);
+            }
+        }
+    }
+
+    /// The response of any group to harmonic number `number` of the part.
+    pub(super) fn respond(&mut self, share: Share<'_>, frequencies: &[f64], number: usize) {
+        let Share { part, group, h, .. } = share;
+        let m = group.matrix.nrows();
+        let (harmonic, load) = &part.harmonics[number];
+        let load = &load[group.first..][..m];
+        for node in 1..NODES {
+            let block = (&group.matrix, PLACES[node] * h);
             let response = &mut self.response[..m];
-            self.phi.oscillator_response(block, driven, load, response);
+            self.phi
+                .oscillator_response(block, frequencies[*harmonic], load, response);
             let targets = &mut self.responses[number * part.len() + group.first..][..m];
             for ([re, im], response) in targets.iter_mut().zip(response) {
                 (re[node], im[node]) = (response.re, response.im);

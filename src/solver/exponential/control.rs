@@ -46,14 +46,21 @@ fn sixth_root(value: f64) -> f64 {
 
 impl Kernel {
     /// Error of the step in units of the bound, on the scale of every monitor.
-    pub(super) fn error<F: Forcing>(&self, task: Task<'_, F>, state: &State, span: Span) -> f64 {
+    pub(super) fn error<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        state: &State,
+        span: Span,
+    ) -> f64 {
         let (sight, control) = (&self.sight, &state.control);
         let elapsed = control.elapsed + span.step;
         let (per_elapsed, per_step) = (1.0 / elapsed, 1.0 / span.step);
         let monitors = &task.system.monitors;
+        for (mean, monitor) in self.squares.iter_mut().zip(monitors) {
+            *mean = sight.mean_square(monitor);
+        }
         let mean_square = |number: usize| {
-            let present = span.step * sight.mean_square(&monitors[number]);
-            (control.squares[number] + present) * per_elapsed
+            (control.squares[number] + span.step * self.squares[number]) * per_elapsed
         };
         let mut worst: f64 = 0.0;
         for (number, monitor) in monitors.iter().enumerate() {

@@ -8,8 +8,6 @@
 //!   d_i = free response - sum over pairs and nodes j of e_d F_actuator(j)          d' likewise with e_v
 //! ```
 
-use core::ops::Range;
-
 use super::lanes::{Quad, add_multiple};
 use super::part::Part;
 use super::polynomials::{BUBBLES, CHECKS, END, LAGRANGE, NODES, POWERS};
@@ -26,8 +24,6 @@ pub(super) struct Pair {
 #[derive(Debug, Clone)]
 pub(super) struct Exchange {
     pub(super) pairs: Vec<Pair>,
-    /// Where the pairs of each sensor begin, and where the last ones end.
-    of_sensor: Vec<usize>,
     /// For every part the pair of each actuator and sensor, sensors running fastest.
     of_part: Vec<Vec<usize>>,
 }
@@ -44,7 +40,7 @@ pub(super) struct Influences {
 }
 
 impl Exchange {
-    pub(super) fn between(parts: &[Part], couplings: usize) -> Exchange {
+    pub(super) fn between(parts: &[Part]) -> Exchange {
         let joined = |part: &Part| -> Vec<Pair> {
             let actuators = part.actuators.iter();
             let pairs = actuators.flat_map(|&actuator| {
@@ -58,18 +54,10 @@ impl Exchange {
         pairs.dedup();
         let number = |pair: &Pair| pairs.partition_point(|other| other < pair);
         let of_part = |part: &Part| joined(part).iter().map(number).collect();
-        let begin = |sensor: usize| pairs.partition_point(|pair| pair.sensor < sensor);
         Exchange {
-            of_sensor: (0..=couplings).map(begin).collect(),
             of_part: parts.iter().map(of_part).collect(),
             pairs,
         }
-    }
-
-    /// The numbers of the pairs of a sensor.
-    #[inline(always)]
-    pub(super) fn pairs_of(&self, sensor: usize) -> Range<usize> {
-        self.of_sensor[sensor]..self.of_sensor[sensor + 1]
     }
 
     /// How what is missing in the forces at the checks would change deflections and rates at the end.

@@ -60,6 +60,8 @@ pub(super) struct Kernel {
     /// Whether the couplings have seen the motion as it is.
     is_seen: bool,
     pub(super) nodes: Nodes,
+    /// Mean squares over the present step of what the monitors watch.
+    pub(super) squares: Vec<f64>,
     counts: Counts,
     /// The CPU's vectors.
     arch: Arch,
@@ -68,7 +70,7 @@ pub(super) struct Kernel {
 impl Kernel {
     pub(super) fn new(system: &System, harmonics: &[Harmonic]) -> Kernel {
         let parts = take_apart(system, &system.blocks, harmonics);
-        let exchange = Exchange::between(&parts, system.couplings.len());
+        let exchange = Exchange::between(&parts);
         let panels = Panels::of(&parts);
         let unused = Coefficients::unused(&parts, &panels, &exchange, harmonics.len());
         let affordable = (MEMORY / unused.bytes().max(1)).clamp(4, LENGTHS);
@@ -91,6 +93,7 @@ impl Kernel {
             sight: Sight::new(couplings),
             is_seen: false,
             nodes: Nodes::new(couplings, &exchange),
+            squares: vec![0.0; system.monitors.len()],
             counts: Counts::default(),
             arch: Arch::new(),
             exchange,
@@ -232,8 +235,8 @@ impl Kernel {
         state
             .turning
             .turn(harmonics, &coefficients.rotations, excess);
-        for (monitor, squares) in task.system.monitors.iter().zip(&mut state.control.squares) {
-            *squares += span.step * sight.mean_square(monitor);
+        for (squares, mean) in state.control.squares.iter_mut().zip(&self.squares) {
+            *squares += span.step * mean;
         }
         sight.move_on();
         // Movements add up to the motion: rounding does, too, and at once where rotations grow without end.

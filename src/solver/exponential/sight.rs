@@ -47,16 +47,13 @@ impl Sight {
     /// How far couplings move under the present forces.
     #[inline(always)]
     pub(super) fn exert(&mut self, exchange: &Exchange, influences: &Influences) {
-        for (coupling, moved) in self.moved.iter_mut().enumerate() {
-            let mut readings = self.free[coupling];
-            let range = exchange.pairs_of(coupling);
-            let pairs = exchange.pairs[range.clone()].iter();
-            for (pair, influence) in pairs.zip(&influences.of_pairs[range]) {
-                for (force, row) in self.forces[pair.actuator].iter().zip(influence) {
-                    accumulate(&mut readings, -force, row);
-                }
+        self.moved.copy_from_slice(&self.free);
+        for (pair, influence) in exchange.pairs.iter().zip(&influences.of_pairs) {
+            let mut readings = self.moved[pair.sensor];
+            for (force, row) in self.forces[pair.actuator].iter().zip(influence) {
+                accumulate(&mut readings, -force, row);
             }
-            *moved = readings;
+            self.moved[pair.sensor] = readings;
         }
     }
 

@@ -57,6 +57,7 @@ impl ModalModel {
             meshes.push(join(&mut system, &rotors, mesh, free));
         }
         let radial = add_radial_bearings(&mut system, &rotors);
+        system.springs = system.couplings.len();
         let mut spins = Vec::new();
         let vibration = SupportVibration::new(&train.gearbox_vibration);
         let mut harmonics = Vec::new();

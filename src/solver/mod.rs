@@ -48,6 +48,9 @@ pub struct System {
     pub blocks: Vec<Block>,
     /// The forces between and on the blocks.
     pub couplings: Vec<Coupling>,
+    /// So many of them, the first ones, are springs: their forces answer fast to their own deflections and rates. Those of the
+    /// others hardly do.
+    pub springs: usize,
     /// The columns along which the outside loads the coordinates, each within one block.
     pub loads: Vec<Row>,
     /// Number of laws that have pieces.

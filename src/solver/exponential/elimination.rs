@@ -160,12 +160,18 @@ fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
 
 /// Matrix times unknowns.
 #[inline(always)]
-fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
+fn product(columns: &Square, unknowns: &Quad) -> Quad {
     let mut sum = [0.0; 4];
-    for (column, x) in columns.iter().zip(x) {
-        add_multiple(&mut sum, *x, column);
-    }
+    add_product(&mut sum, columns, unknowns);
     sum
+}
+
+/// sum += matrix times unknowns.
+#[inline(always)]
+pub(super) fn add_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+    for (column, x) in columns.iter().zip(x) {
+        add_multiple(sum, *x, column);
+    }
 }
 
 /// sum -= matrix times unknowns.

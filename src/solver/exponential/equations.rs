@@ -1,15 +1,15 @@
-//! The forces at the nodes of a step where all laws are straight lines: linear equations.
+//! The forces of springs at the nodes of a step, where their laws are straight lines: linear equations.
 //!
 //! ```text
 //!   F_i = k_i d_i + c_i d_i' + r_i,   d_i = free response - sum over pairs and nodes j of e_d F_j       unknown: F at three nodes
 //! ```
 //!
-//! Solved by elimination: `elimination`.
+//! Solved by elimination (`elimination`). Laws that are no lines are replaced by their tangents, again and again.
 
 use super::super::march::Span;
-use super::super::{Forcing, Lines, Piece};
-use super::elimination::{Elimination, Square};
-use super::exchange::{Exchange, Influences};
+use super::super::{Forcing, Lines, Piece, Spring, System};
+use super::elimination::{Elimination, Square, add_product};
+use super::exchange::{Exchange, Influences, Pair};
 use super::lanes::{Quad, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
 use super::polynomials::{CHECK_PLACES, CHECKS, END, NODES, PLACES};
@@ -24,17 +24,24 @@ const PLACES_OF_LINES: usize = NODES + CHECKS;
 #[derive(Debug, Clone)]
 pub(super) struct Equations {
     elimination: Elimination,
+    /// The pairs of springs, with their numbers among all pairs.
+    pairs: Vec<(usize, Pair)>,
     /// The lines of all couplings.
     lines: Vec<Lines<PLACES_OF_LINES>>,
-    /// How the sensor's forces depend on the actuator's: for every pair, then for what fills up.
+    /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
     blocks: Vec<Square>,
 }
 
 impl Equations {
-    pub(super) fn new(couplings: usize, exchange: &Exchange) -> Equations {
-        let elimination = Elimination::of(&exchange.pairs, couplings);
+    pub(super) fn new(system: &System, exchange: &Exchange) -> Equations {
+        let are_springs = |pair: &Pair| pair.sensor.max(pair.actuator) < system.springs;
+        let numbered = exchange.pairs.iter().copied().enumerate();
+        let pairs: Vec<(usize, Pair)> = numbered.filter(|(_, pair)| are_springs(pair)).collect();
+        let springs: Vec<Pair> = pairs.iter().map(|&(_, pair)| pair).collect();
+        let elimination = Elimination::of(&springs, system.springs);
         Equations {
-            lines: vec![Lines::ZERO; couplings],
+            pairs,
+            lines: vec![Lines::ZERO; system.couplings.len()],
             blocks: vec![Square::default(); elimination.blocks()],
             elimination,
         }
@@ -50,19 +57,51 @@ impl Equations {
         PLACES_OF_LINES as u64
     }
 
-    /// Solves for the forces at the nodes. Gives whether they were found.
+    /// Solves for the forces at the nodes; all couplings are springs. Gives whether they were found.
     #[inline(always)]
-    pub(super) fn solve(
-        &mut self,
-        (exchange, influences): (&Exchange, &Influences),
-        sight: &mut Sight,
-    ) -> bool {
+    pub(super) fn solve(&mut self, influences: &Influences, sight: &mut Sight) -> bool {
         self.let_go(sight);
-        if self.set_up((exchange, influences), sight) > MOST_FEEDBACK {
+        if self.set_up(influences) > MOST_FEEDBACK {
             return false;
         }
+        for (number, pair) in &self.pairs {
+            let [known, ..] = &influences.of_pairs[*number];
+            let push = push(&self.lines[pair.sensor], known);
+            let force = sight.forces[pair.actuator][0];
+            subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
+        }
+        self.elimination.add_identity(&mut self.blocks);
         self.elimination.solve(&mut self.blocks, &mut sight.forces);
         sight.are_forces_finite()
+    }
+
+    /// The tangents of springs at a node.
+    pub(super) fn touch(&mut self, node: usize, tangents: &[Spring]) {
+        for (lines, tangent) in self.lines.iter_mut().zip(tangents) {
+            lines.stiffness[node] = tangent.stiffness;
+            lines.damping[node] = tangent.damping;
+        }
+    }
+
+    /// A step of Newton's method: `answers` are the forces of the laws in the motion under the present ones, and become those
+    /// on the tangents.
+    ///
+    /// ```text
+    ///   F_i + sum over j of A_ij F_j = answer_i + sum over j of A_ij (present F_j)
+    /// ```
+    #[inline(always)]
+    pub(super) fn improve(
+        &mut self,
+        influences: &Influences,
+        present: &[Quad],
+        answers: &mut [Quad],
+    ) {
+        self.set_up(influences);
+        for ((_, pair), block) in self.pairs.iter().zip(&self.blocks) {
+            add_product(&mut answers[pair.sensor], block, &present[pair.actuator]);
+        }
+        self.elimination.add_identity(&mut self.blocks);
+        self.elimination.solve(&mut self.blocks, answers);
     }
 
     /// The forces at all nodes if nothing answered to them; those at the start are right.
@@ -77,21 +116,14 @@ impl Equations {
         }
     }
 
-    /// The blocks, and on the right-hand side what answers to the forces at the start. Gives the largest entry of a coupling's own
-    /// block.
+    /// The blocks without the identity. Gives the largest entry of a coupling's own block.
     #[inline(always)]
-    fn set_up(
-        &mut self,
-        (exchange, influences): (&Exchange, &Influences),
-        sight: &mut Sight,
-    ) -> f64 {
+    fn set_up(&mut self, influences: &Influences) -> f64 {
         let mut feedback = [0.0; 4];
-        let (blocks, filling) = self.blocks.split_at_mut(exchange.pairs.len());
-        let pairs = exchange.pairs.iter().zip(&influences.of_pairs);
-        for ((pair, [known, unknown @ ..]), block) in pairs.zip(blocks) {
+        let (blocks, filling) = self.blocks.split_at_mut(self.pairs.len());
+        for ((number, pair), block) in self.pairs.iter().zip(blocks) {
             let lines = &self.lines[pair.sensor];
-            let force = sight.forces[pair.actuator][0];
-            subtract_multiple(&mut sight.forces[pair.sensor], force, &push(lines, known));
+            let [_, unknown @ ..] = &influences.of_pairs[*number];
             *block = unknown.each_ref().map(|moved| push(lines, moved));
             if pair.actuator == pair.sensor {
                 for column in &*block {
@@ -102,7 +134,6 @@ impl Equations {
             }
         }
         filling.fill(Square::default());
-        self.elimination.add_identity(&mut self.blocks);
         feedback.into_iter().fold(0.0, larger)
     }
 

@@ -15,7 +15,7 @@ use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::Panels;
 use super::part::{Part, take_apart};
-use super::passes::{Compute, LookAhead, Move, Observe, ReadOff, SolveLines, TakeLoads};
+use super::passes::{Compute, LookAhead, Move, Observe, ReadOff, SolveLines, Sweep, TakeLoads};
 use super::rows::Rows;
 use super::scratch::Scratch;
 use super::shapes::Shapes;
@@ -92,7 +92,7 @@ impl Kernel {
             scratch: Scratch::new(&parts, harmonics.len()),
             sight: Sight::new(couplings),
             is_seen: false,
-            nodes: Nodes::new(couplings, &exchange),
+            nodes: Nodes::new(system, &exchange),
             squares: vec![0.0; system.monitors.len()],
             counts: Counts::default(),
             arch: Arch::new(),
@@ -306,12 +306,14 @@ impl Method for Kernel {
                 exchange: &self.exchange,
             })
         } else {
-            self.arch.dispatch(ahead);
-            let (at, between) = (
-                (span, state.slow.as_slice()),
-                (&self.exchange, &coefficients.influences),
-            );
-            self.nodes.sweep(task, at, pieces, between, &mut self.sight)
+            self.arch.dispatch(Sweep {
+                ahead,
+                nodes: &mut self.nodes,
+                task,
+                at: (span, &state.slow),
+                pieces,
+                exchange: &self.exchange,
+            })
         };
         if !found {
             self.counts.rejected += 1;

@@ -4,10 +4,11 @@
 //!   F_i = F(s_i, d_i, d_i'),   d_i = free response - sum over pairs and nodes j of e_d F_j        unknown: F but at the start
 //! ```
 //!
-//! Where all laws are straight lines these are linear equations (`equations`). Other laws are swept as they are.
+//! Where all laws are straight lines these are linear equations (`equations`). Otherwise the laws are asked again and again: springs
+//! by Newton's method, since they answer strongly to their own forces, the others as they are.
 
 use super::super::march::{Span, Task};
-use super::super::{Forcing, Piece};
+use super::super::{Forcing, Piece, Spring, System};
 use super::equations::Equations;
 use super::exchange::{Exchange, Influences};
 use super::lanes::Quad;
@@ -23,6 +24,9 @@ const ACCURACY: (f64, f64) = (1e-3, 1e-13);
 #[derive(Debug, Clone)]
 pub(super) struct Nodes {
     pub(super) equations: Equations,
+    /// What laws answer to the present forces at the nodes, and their tangents at one of them.
+    answers: Vec<Quad>,
+    tangents: Vec<Spring>,
     /// What the cubic leaves out of the forces at the checks.
     missing: Vec<[f64; CHECKS]>,
     /// How the forces at the end change with that.
@@ -32,9 +36,12 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub(super) fn new(couplings: usize, exchange: &Exchange) -> Nodes {
+    pub(super) fn new(system: &System, exchange: &Exchange) -> Nodes {
+        let couplings = system.couplings.len();
         Nodes {
-            equations: Equations::new(couplings, exchange),
+            equations: Equations::new(system, exchange),
+            answers: vec![[0.0; NODES]; couplings],
+            tangents: vec![Spring::default(); couplings],
             missing: vec![[0.0; CHECKS]; couplings],
             change: vec![0.0; couplings],
             evaluations: 0,
@@ -56,7 +63,7 @@ impl Nodes {
         step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let found = self.equations.solve((exchange, influences), sight);
+        let found = self.equations.solve(influences, sight);
         if found {
             sight.exert(exchange, influences);
             self.equations.compare(step, sight, &mut self.missing);
@@ -66,8 +73,8 @@ impl Nodes {
         found
     }
 
-    /// All laws as they are, node after node, until nothing changes. Gives whether the forces were found; the nodes are shown
-    /// under them then.
+    /// All laws as they are, until nothing changes. Gives whether the forces were found; the nodes are shown under them then.
+    #[inline(always)]
     pub(super) fn sweep<F: Forcing>(
         &mut self,
         task: Task<'_, F>,
@@ -77,33 +84,55 @@ impl Nodes {
         sight: &mut Sight,
     ) -> bool {
         let accuracy = accuracy(task.tolerance);
-        for forces in &mut sight.forces {
+        for (forces, answers) in sight.forces.iter_mut().zip(&mut self.answers) {
             *forces = [forces[0]; NODES];
+            answers[0] = forces[0];
         }
         for _ in 0..MOST_SWEEPS {
-            let least = least_force(sight);
-            let mut settled = true;
             sight.exert(exchange, influences);
             sight.show();
-            for (node, place) in PLACES.into_iter().enumerate().skip(1) {
-                let at = instant(&sight.nodes[node], span.at(place), slow);
-                task.forcing.forces_into(at, pieces, &mut sight.present);
-                for (forces, &present) in sight.forces.iter_mut().zip(&sight.present) {
-                    let force = &mut forces[node];
-                    let size = present.abs().max(force.abs()).max(least);
-                    // Written so that neither NaN nor infinity is settled.
-                    settled &= (present - *force).abs() <= accuracy * size && size < f64::INFINITY;
-                    *force = present;
-                }
-            }
-            self.evaluations += END as u64;
-            if settled {
-                sight.exert(exchange, influences);
-                sight.show();
+            self.ask(task, (span, slow), pieces, sight);
+            if self.is_settled(accuracy, sight) {
                 return true;
             }
+            self.equations
+                .improve(influences, &sight.forces, &mut self.answers);
+            sight.forces.copy_from_slice(&self.answers);
         }
         false
+    }
+
+    /// What the laws answer at the nodes that are shown.
+    fn ask<F: Forcing>(
+        &mut self,
+        task: Task<'_, F>,
+        (span, slow): (Span, &[f64]),
+        pieces: &[Piece],
+        sight: &mut Sight,
+    ) {
+        for (node, place) in PLACES.into_iter().enumerate().skip(1) {
+            let at = instant(&sight.nodes[node], span.at(place), slow);
+            task.forcing.forces_into(at, pieces, &mut sight.present);
+            task.forcing.tangents_into(at, pieces, &mut self.tangents);
+            self.equations.touch(node, &self.tangents);
+            for (answers, &present) in self.answers.iter_mut().zip(&sight.present) {
+                answers[node] = present;
+            }
+        }
+        self.evaluations += END as u64;
+    }
+
+    /// Whether the answers are the forces. Neither NaN nor infinity is.
+    fn is_settled(&self, accuracy: f64, sight: &Sight) -> bool {
+        let least = least_force(sight);
+        let mut settled = true;
+        for (answers, forces) in self.answers.iter().zip(&sight.forces) {
+            for (answer, force) in answers.iter().zip(forces) {
+                let size = answer.abs().max(force.abs()).max(least);
+                settled &= (answer - force).abs() <= accuracy * size && size < f64::INFINITY;
+            }
+        }
+        settled
     }
 
     /// What the cubic leaves out at the checks, and how that would change deflections, rates (`sight.drift`) and forces at

@@ -6,6 +6,7 @@
 //!   observe        deflections and rates = rows eta
 //!   look ahead     free responses at the nodes = rows (B eta + load) + rows load' + response to the harmonics
 //!   solve lines    the forces at the nodes from these, where all laws are straight lines
+//!   sweep          the same for any laws
 //!   move           eta + h phi_1 (B eta + load) + h^2 phi_2 load' - sum over j of f_j F_j + response to the harmonics
 //!   read off       the readings of the system = rows eta
 //! ```
@@ -14,7 +15,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::super::march::Span;
+use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, Ramp};
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
@@ -71,6 +72,17 @@ pub(super) struct SolveLines<'a, F> {
     pub(super) nodes: &'a mut Nodes,
     pub(super) forcing: &'a F,
     pub(super) span: Span,
+    pub(super) pieces: &'a [Piece],
+    pub(super) exchange: &'a Exchange,
+}
+
+/// The forces of any laws. Gives whether they were found.
+pub(super) struct Sweep<'a, F> {
+    pub(super) ahead: LookAhead<'a>,
+    pub(super) nodes: &'a mut Nodes,
+    pub(super) task: Task<'a, F>,
+    /// The step, with the slow parameters in it.
+    pub(super) at: (Span, &'a [f64]),
     pub(super) pieces: &'a [Piece],
     pub(super) exchange: &'a Exchange,
 }
@@ -171,15 +183,6 @@ impl LookAhead<'_> {
     }
 }
 
-impl WithSimd for LookAhead<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        self.look(simd);
-    }
-}
-
 impl<F: Forcing> WithSimd for SolveLines<'_, F> {
     type Output = bool;
 
@@ -189,6 +192,18 @@ impl<F: Forcing> WithSimd for SolveLines<'_, F> {
         let between = (self.exchange, &self.ahead.coefficients.influences);
         self.nodes.draw(self.forcing, self.span, self.pieces);
         self.nodes.solve(between, self.span.step, self.ahead.sight)
+    }
+}
+
+impl<F: Forcing> WithSimd for Sweep<'_, F> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) -> bool {
+        self.ahead.look(simd);
+        let between = (self.exchange, &self.ahead.coefficients.influences);
+        let (nodes, sight) = (self.nodes, self.ahead.sight);
+        nodes.sweep(self.task, self.at, self.pieces, between, sight)
     }
 }
 

@@ -92,6 +92,11 @@ impl Elimination {
         }
     }
 
+    /// Number of couplings.
+    pub(super) fn couplings(&self) -> usize {
+        self.pivots.len()
+    }
+
     /// Number of blocks: those of the pairs, then those that fill up, to be set to zero before.
     pub(super) fn blocks(&self) -> usize {
         self.blocks
@@ -160,18 +165,12 @@ fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
 
 /// Matrix times unknowns.
 #[inline(always)]
-fn product(columns: &Square, unknowns: &Quad) -> Quad {
+fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
     let mut sum = [0.0; 4];
-    add_product(&mut sum, columns, unknowns);
-    sum
-}
-
-/// sum += matrix times unknowns.
-#[inline(always)]
-pub(super) fn add_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
     for (column, x) in columns.iter().zip(x) {
-        add_multiple(sum, *x, column);
+        add_multiple(&mut sum, *x, column);
     }
+    sum
 }
 
 /// sum -= matrix times unknowns.

@@ -8,9 +8,9 @@
 
 use super::super::march::Span;
 use super::super::{Forcing, Lines, Piece, Spring, System};
-use super::elimination::{Elimination, Square, add_product};
+use super::elimination::{Elimination, Square};
 use super::exchange::{Exchange, Influences, Pair};
-use super::lanes::{Quad, subtract_multiple};
+use super::lanes::{Quad, add_multiple, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
 use super::polynomials::{CHECK_PLACES, CHECKS, END, NODES, PLACES};
 use super::sight::{Readings, Sight};
@@ -83,11 +83,11 @@ impl Equations {
         }
     }
 
-    /// A step of Newton's method: `answers` are the forces of the laws in the motion under the present ones, and become those
-    /// on the tangents.
+    /// A step of Newton's method: `answers` are the forces of the laws in the motion under the present ones; those of springs become
+    /// the forces on the tangents.
     ///
     /// ```text
-    ///   F_i + sum over j of A_ij F_j = answer_i + sum over j of A_ij (present F_j)
+    ///   c_i + sum over j of A_ij c_j = answer_i - F_i,   F_i + c_i         changes: forces themselves would bring rounding back
     /// ```
     #[inline(always)]
     pub(super) fn improve(
@@ -97,11 +97,16 @@ impl Equations {
         answers: &mut [Quad],
     ) {
         self.set_up(influences);
-        for ((_, pair), block) in self.pairs.iter().zip(&self.blocks) {
-            add_product(&mut answers[pair.sensor], block, &present[pair.actuator]);
-        }
         self.elimination.add_identity(&mut self.blocks);
-        self.elimination.solve(&mut self.blocks, answers);
+        let springs = self.elimination.couplings();
+        let (changes, present) = (&mut answers[..springs], &present[..springs]);
+        for (change, present) in changes.iter_mut().zip(present) {
+            subtract_multiple(change, 1.0, present);
+        }
+        self.elimination.solve(&mut self.blocks, changes);
+        for (change, present) in changes.iter_mut().zip(present) {
+            add_multiple(change, 1.0, present);
+        }
     }
 
     /// The forces at all nodes if nothing answered to them; those at the start are right.

@@ -155,8 +155,9 @@ impl Nodes {
         let at = instant(&sight.trial, span.end, slow);
         task.forcing.forces_into(at, pieces, &mut self.change);
         self.evaluations += 1;
-        for (change, forces) in self.change.iter_mut().zip(&sight.forces) {
-            *change -= forces[END];
+        // The answers: forces are settled up to their accuracy only.
+        for (change, answers) in self.change.iter_mut().zip(&self.answers) {
+            *change -= answers[END];
         }
     }
 

@@ -76,12 +76,9 @@ impl Package {
 
 /// Meshes that the torques pull apart, and trains that cannot start in equilibrium.
 fn contradicting_flanks(train: &GearTrain, model: &ModalModel) -> Vec<Problem> {
-    let torques = train
-        .rotors
-        .iter()
-        .flat_map(|rotor| &rotor.torques)
-        .map(|torque| torque.value);
-    let inputs = model.inputs_at_rest(torques.collect());
+    let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
+    let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
+    let inputs = model.inputs_at_rest(&torques);
     let problem = |key: String, place: String, message: String| Problem {
         file: None,
         spot: None,

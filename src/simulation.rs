@@ -4,6 +4,8 @@
 //! outside sees, evaluated with the inputs as they are now. A [`Snapshot`] is everything that influences a
 //! later step. Knows no FMI.
 
+use core::cell::{OnceCell, RefCell};
+
 use serde::{Deserialize, Serialize};
 
 use crate::config::{self, SolverChoice, Start};
@@ -23,6 +25,9 @@ pub struct Simulation {
     carried_rate: Inputs,
     /// What the inputs exert in a step.
     loads: Vec<Ramp>,
+    /// The forces of all bearings, once asked for, and room for them until then.
+    bearing_forces: OnceCell<Vec<[f64; 2]>>,
+    room: RefCell<Vec<[f64; 2]>>,
     solver: Integrator,
     tolerance: f64,
 }
@@ -65,6 +70,8 @@ impl Simulation {
         let state = solver.state_at(system, 0.0, zeros(), zeros());
         Simulation {
             loads: vec![Ramp::default(); system.loads.len()],
+            bearing_forces: OnceCell::new(),
+            room: RefCell::new(vec![[0.0; 2]; model.bearings().count()]),
             state,
             carried: inputs.clone(),
             carried_rate: inputs.clone(),
@@ -109,6 +116,7 @@ impl Simulation {
 
     /// The same as [`Simulation::advance_along`] with a rate of [`Simulation::carried`].
     pub fn advance_carrying(&mut self, time: f64, rate: Option<&Inputs>) -> Result<(), StepError> {
+        self.moves();
         let since = self.state.time;
         self.carried();
         let knows_bearings = self.model.knows_bearings();
@@ -126,15 +134,15 @@ impl Simulation {
         let system = self.model.system_in_steps();
         self.solver
             .advance_to(system, &excitation, &mut self.state, time, self.tolerance)?;
-        let mut inputs = core::mem::take(&mut self.inputs);
         if knows_bearings {
+            let mut inputs = core::mem::take(&mut self.inputs);
             inputs.overwrite(&self.carried);
             self.motion().add_known_forces(-1.0, &mut inputs);
+            self.inputs = inputs;
         }
         if let Some(rate) = rate {
-            inputs.add_change(rate, time - since);
+            self.inputs.add_change(rate, time - since);
         }
-        self.inputs = inputs;
         Ok(())
     }
 
@@ -145,6 +153,7 @@ impl Simulation {
 
     /// The inputs that hold from now on, to be changed.
     pub fn inputs_mut(&mut self) -> &mut Inputs {
+        self.moves();
         &mut self.inputs
     }
 
@@ -156,6 +165,24 @@ impl Simulation {
     /// What the outside sees now.
     pub fn motion(&self) -> Motion<'_> {
         Motion::new(&self.model, &self.state, &self.inputs)
+    }
+
+    /// The forces of all bearings in the order of the inputs, in x and y [N]: those of [`Motion::bearing_force`], worked out when
+    /// first asked for.
+    #[inline]
+    pub fn bearing_forces(&self) -> &[[f64; 2]] {
+        self.bearing_forces.get_or_init(|| {
+            let mut forces = self.room.take();
+            self.motion().bearing_forces_into(&mut forces);
+            forces
+        })
+    }
+
+    /// State or inputs are about to change: what was worked out from them does not hold any more.
+    fn moves(&mut self) {
+        if let Some(forces) = self.bearing_forces.take() {
+            self.room.replace(forces);
+        }
     }
 
     /// q'' under the inputs as they are now.
@@ -217,6 +244,7 @@ impl Simulation {
         if !(fits && snapshot.state.is_like(&self.state)) {
             return false;
         }
+        self.moves();
         self.state.copy_from(&snapshot.state);
         self.inputs.clone_from(&snapshot.inputs);
         true

@@ -41,7 +41,7 @@ fn steps_inputs_and_outputs_allocate_nothing() {
     let mut sum = 0.0;
     // Communication steps of many lengths: new step operators are computed in place, too.
     for index in 1..=200 {
-        simulation.inputs_mut().torques[0] += 1.0;
+        simulation.inputs_mut().torques_mut()[0] += 1.0;
         let end = 2e-5 * f64::from(index) + 1e-6 * f64::from(index % 7);
         simulation.advance_to(end).unwrap();
         let motion = simulation.motion();
@@ -57,15 +57,15 @@ fn steps_of_a_housing_that_knows_its_bearings_allocate_nothing() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/models/known_box.toml");
     let mut simulation = started(&std::fs::read_to_string(path).unwrap(), 1e-4);
     let mut rate = simulation.inputs().clone();
-    rate.forces[0] = [2e4, -3e4];
+    rate.forces_mut()[0] = [2e4, -3e4];
     simulation.advance_to(1e-5).unwrap();
     let before = ALLOCATIONS.get();
     for index in 1..=100 {
-        simulation.inputs_mut().forces[1][0] += 3.0;
+        simulation.inputs_mut().forces_mut()[1][0] += 3.0;
         let end = 2e-5 * f64::from(index);
         simulation.advance_along(end, Some(&rate)).unwrap();
         assert!(simulation.motion().point_acceleration(0)[0].abs() > 0.0);
-        assert!(simulation.carried().forces[0][0].is_finite());
+        assert!(simulation.carried().forces()[0][0].is_finite());
     }
     assert_eq!(ALLOCATIONS.get() - before, 0);
 }

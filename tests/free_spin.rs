@@ -22,8 +22,8 @@ fn reduced_inertia() -> f64 {
 
 fn free_pair(speed: f64, ports: [(f64, f64); 2]) -> Run {
     let text = rigid_pair(FREE, speed, ports, "damping_ratio = 0.1", LAW);
-    let torques = ports.map(|(value, _)| value).to_vec();
-    Run::new(assembled(&text), torques, SolverChoice::Exponential, 1e-6)
+    let torques = ports.map(|(value, _)| value);
+    Run::new(assembled(&text), &torques, SolverChoice::Exponential, 1e-6)
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn a_run_up_from_rest_accelerates_with_torque_over_reduced_inertia() {
             "damping_ratio = 0.2",
             LAW,
         );
-        let mut run = Run::new(assembled(&text), vec![50.0, 0.0], solver, 1e-6);
+        let mut run = Run::new(assembled(&text), &[50.0, 0.0], solver, 1e-6);
         // The oscillation that the sudden torque starts has died out after 0.05 s: zeta w t = 0.2 x 3900 x 0.05.
         run.advance_to(0.05);
         let before = [0, 1].map(|rotor| run.motion().speed(rotor));
@@ -116,7 +116,7 @@ fn a_reversed_torque_crosses_the_backlash_in_the_time_of_free_flight() {
     );
     let mut run = Run::new(
         assembled(&text),
-        vec![-torque, 0.0],
+        &[-torque, 0.0],
         SolverChoice::Exponential,
         1e-6,
     );
@@ -204,7 +204,7 @@ fn unbalance_follows_the_angle_with_its_radial_and_tangential_part() {
     let model = assembled(&lonely_rotor("free", 0.0, &disk, &unbalance));
     let (mass, polar) = (mass + shaft()[0], polar + shaft()[1]);
     for solver in SOLVERS {
-        let mut run = Run::new(model.clone(), vec![torque], solver, 1e-6);
+        let mut run = Run::new(model.clone(), &[torque], solver, 1e-6);
         let acceleration = torque / polar;
         for end in [0.03, 0.1, 0.2] {
             run.advance_to(end);
@@ -244,11 +244,11 @@ fn an_accelerated_gyroscope_feels_both_gyroscopic_terms() {
     );
     let (polar, diametral) = (polar + shaft()[1], diametral + shaft()[2]);
     let model = assembled(&lonely_rotor("free", 0.0, &disk, "").replace("xx = 80.0", "xx = 1.0"));
-    let mut run = Run::new(model, vec![torque], SolverChoice::Exponential, 1e-7);
+    let mut run = Run::new(model, &[torque], SolverChoice::Exponential, 1e-7);
     // Sudden: the gearbox is tilted about y, the left end by +1 mm, the right end by -1 mm.
     let tilt = 1e-3;
-    run.inputs.bases[0].displacement[0] = tilt;
-    run.inputs.bases[1].displacement[0] = -tilt;
+    run.inputs.bases_mut()[0][0] = tilt;
+    run.inputs.bases_mut()[1][0] = -tilt;
     let end = 0.2;
     run.advance_to(end);
     let acceleration = torque / polar;
@@ -297,7 +297,7 @@ fn free_spin_with_huge_inertia_is_prescribed_speed() {
     let series = |text: &str| {
         let mut run = Run::new(
             assembled(text),
-            vec![0.4, 0.4],
+            &[0.4, 0.4],
             SolverChoice::Exponential,
             1e-7,
         );

@@ -247,7 +247,7 @@ fn energy_stays_in_rotors_and_housing_together_over_a_hundred_mesh_periods() {
     };
     let period = 1.0 / model.meshes[0].frequency();
     let size = model.system.size;
-    let mut run = Run::new(model, vec![0.0; 2], SolverChoice::Exponential, 1e-8);
+    let mut run = Run::new(model, &[0.0; 2], SolverChoice::Exponential, 1e-8);
     let kick = |i: usize| 0.01 * ((7 * i) as f64).sin();
     run.put(vec![0.0; size], (0..size).map(kick).collect());
     let first = energy(&run);

@@ -31,7 +31,7 @@ fn bouncing(zeta: f64) -> String {
 /// The pair with the teeth just in touch on the reference flank and approaching with this velocity.
 fn approaching(text: &str, velocity: f64, solver: SolverChoice, tolerance: f64) -> Run {
     let model = assembled(text);
-    let mut run = Run::new(model, vec![0.0; 2], solver, tolerance);
+    let mut run = Run::new(model, &[0.0; 2], solver, tolerance);
     let row = run.model.meshes[0]
         .rotation_row
         .to_dense(run.model.system.size);
@@ -141,7 +141,7 @@ fn a_touch_in_the_middle_of_a_long_flight_is_not_missed() {
     let u = (2.0 * a * 0.003 * BACKLASH).sqrt();
     let total = 2.0 * (v - u) / a + 2.0 * (u * omega / a).atan() / omega;
     let mut run = approaching(&bouncing(0.0), -v, SolverChoice::Exponential, 1e-4);
-    run.inputs.torques = vec![torque, 0.0];
+    run.inputs.torques_mut().copy_from_slice(&[torque, 0.0]);
     run.advance_to(0.999 * total); // the contact ends at the reference flank, where another one begins
     let left = 0.001 * total;
     let speed = v - a * left;
@@ -198,12 +198,7 @@ fn impacts_on_both_flanks_keep_energy_without_damping() {
             Start::Equilibrium,
             1e-9,
         );
-        let mut run = Run::new(
-            assembled(&text),
-            vec![0.0; 2],
-            SolverChoice::Exponential,
-            1e-9,
-        );
+        let mut run = Run::new(assembled(&text), &[0.0; 2], SolverChoice::Exponential, 1e-9);
         let state = loaded.motion().state.clone();
         run.put(state.position().to_vec(), state.velocity().to_vec());
         let before = energy(&run, k, backlash);
@@ -234,7 +229,7 @@ fn no_flank_ever_pulls_and_both_never_push_at_once() {
     let text = undamped_pair(1e-5).replace("backlash", "damping_ratio = 0.3\nbacklash");
     let mut run = Run::new(
         assembled(&text),
-        vec![40.0, 40.0],
+        &[40.0, 40.0],
         SolverChoice::Exponential,
         1e-5,
     );
@@ -243,10 +238,8 @@ fn no_flank_ever_pulls_and_both_never_push_at_once() {
     let (mut open, mut closed) = (0, 0);
     for sample in 1..=3000 {
         if sample % 500 == 0 {
-            run.inputs
-                .torques
-                .iter_mut()
-                .for_each(|torque| *torque = -*torque);
+            let torques = run.inputs.torques_mut().iter_mut();
+            torques.for_each(|torque| *torque = -*torque);
         }
         run.advance_to(1e-5 * f64::from(sample));
         let along = |coupling: &Coupling, of: &[f64]| coupling.row.dot(of);
@@ -284,7 +277,7 @@ fn momentum_passes_through_losses_of_contact() {
         let text = undamped_pair(2e-5).replace("backlash", "damping_ratio = 0.05\nbacklash") + free;
         let mut run = Run::new(
             assembled(&text),
-            vec![60.0, 45.0],
+            &[60.0, 45.0],
             SolverChoice::Exponential,
             1e-4,
         );
@@ -299,7 +292,7 @@ fn momentum_passes_through_losses_of_contact() {
         let before = momentum(&run);
         for end in [0.01, 0.02] {
             run.advance_to(end);
-            run.inputs.torques = vec![-60.0, -30.0]; // through the backlash
+            run.inputs.torques_mut().copy_from_slice(&[-60.0, -30.0]); // through the backlash
         }
         let grown = momentum(&run) - before;
         let exact = (60.0 - 45.0) * 0.01 + (-60.0 + 30.0) * 0.01;

@@ -35,8 +35,8 @@ fn teeth_follow_a_torque_that_grows_linearly() {
     let force = mass * rate * RigidPair::RADIUS[0] / RigidPair::INERTIA[0];
     let exact = force / 1e8 * (end - (frequency * end).sin() / frequency);
     for solver in SOLVERS {
-        let mut run = Run::new(assembled(&text), vec![0.0, 0.0], solver, 1e-8);
-        let ramp = run.model.inputs_at_rest(vec![rate, 0.0]);
+        let mut run = Run::new(assembled(&text), &[0.0, 0.0], solver, 1e-8);
+        let ramp = run.model.inputs_at_rest(&[rate, 0.0]);
         run.advance_along(end, Some(&ramp));
         let found = run.motion().mesh_deflection(0);
         // 1e-6: the tolerance over the 1.2 vibrations of the run, and margin.
@@ -60,8 +60,8 @@ fn a_rotor_turns_faster_with_the_square_of_time_under_a_growing_torque() {
     let [one, two] = RigidPair::INERTIA;
     let reduced = one + 0.25 * two;
     for solver in SOLVERS {
-        let mut run = Run::new(assembled(&text), vec![0.0, 0.0], solver, 1e-7);
-        let ramp = run.model.inputs_at_rest(vec![200.0, 0.0]);
+        let mut run = Run::new(assembled(&text), &[0.0, 0.0], solver, 1e-7);
+        let ramp = run.model.inputs_at_rest(&[200.0, 0.0]);
         run.advance_along(0.25, Some(&ramp));
         let exact = 200.0 * 0.25 * 0.25 / (2.0 * reduced);
         let found = run.motion().speed(0);
@@ -111,25 +111,22 @@ fn forces(solver: SolverChoice, step: f64, linear: Option<bool>) -> [Vec<f64>; 2
         text = text.replace("amplitude_y = 0.0", "amplitude_y = 2e-5");
     }
     let model = assembled(&text);
-    let mut run = Run::new(model, file_inputs(&text).torques, solver, 1e-7);
-    let bearings = run.inputs.bases.len();
-    let torques = run.inputs.torques.len();
+    let mut run = Run::new(model, file_inputs(&text).torques(), solver, 1e-7);
+    let bearings = run.inputs.bases().len();
+    let torques = run.inputs.torques().to_vec();
     let count = (0.03 / step).round() as usize;
     let mut found = [Vec::new(), Vec::new()];
     for index in 0..count {
         let [now, next] = [index, index + 1].map(|index| base_at(step * index as f64));
         if linear.is_some() {
-            run.inputs.bases = vec![now; bearings];
+            run.inputs = Inputs::new(&torques, &vec![now; bearings], &[]);
         }
-        let rate = Inputs {
-            torques: vec![0.0; torques],
-            bases: vec![secant(now, next, step); bearings],
-            forces: Vec::new(),
-        };
+        let moving = vec![secant(now, next, step); bearings];
+        let rate = Inputs::new(&vec![0.0; torques.len()], &moving, &[]);
         let rate = (linear == Some(true)).then_some(&rate);
         run.advance_along(step * (index + 1) as f64, rate);
         if linear.is_some() {
-            run.inputs.bases = vec![next; bearings];
+            run.inputs = Inputs::new(&torques, &vec![next; bearings], &[]);
         }
         let motion = run.motion();
         found[0].push(motion.mesh_force(0));

@@ -73,7 +73,7 @@ fn a_snapshot_continues_bit_for_bit() {
             record(&mut simulation, 60);
             let snapshot = simulation.snapshot();
             let first = record(&mut simulation, 60);
-            simulation.inputs_mut().torques[0] = 0.0;
+            simulation.inputs_mut().torques_mut()[0] = 0.0;
             simulation.advance_to(4e-3).unwrap();
             assert!(simulation.restore(&snapshot));
             assert_eq!(record(&mut simulation, 60), first, "{name}, {solver:?}");

@@ -32,7 +32,7 @@ fn point(stiffness: f64, nonlinear: &str, extra: &str) -> String {
 /// The mass released at (x, y) with a velocity.
 fn released(text: &str, place: [f64; 2], velocity: [f64; 2], solver: SolverChoice) -> Run {
     // Far below the claims: without damping errors of phase add up, and Hertz's force is not smooth where it begins.
-    let mut run = Run::new(assembled(text), Vec::new(), solver, 1e-9);
+    let mut run = Run::new(assembled(text), &[], solver, 1e-9);
     let station = &run.model.rotors[0].bearings[0].station;
     // Translation without tilt: the squares of the shapes in the middle add up to 1/m.
     let shapes = [&station.x, &station.y].map(|row| row.to_dense(run.model.system.size));
@@ -236,8 +236,8 @@ fn a_bearing_follows_the_speed_of_a_rotor_that_turns_freely() {
         + table
         + "[[rotor.torque]]\nname = \"t\"\nposition = 0.1\nslope = 0.1\n";
     for solver in SOLVERS {
-        let mut run = Run::new(assembled(&text), vec![12.0], solver, 1e-7);
-        run.inputs.bases[1].displacement[0] = 1e-4;
+        let mut run = Run::new(assembled(&text), &[12.0], solver, 1e-7);
+        run.inputs.bases_mut()[1][0] = 1e-4;
         run.advance_to(15.0 * 0.5); // the speed settles with J/slope = 0.5 s
         let speed = run.motion().speed(0);
         assert!((speed / 120.0 - 1.0).abs() < 1e-6, "{speed}");

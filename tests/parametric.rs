@@ -23,7 +23,7 @@ fn pair(law: &str) -> Run {
     let text = rigid_pair("start = \"rest\"", 150.0, [(0.0, 0.0); 2], &mesh, law);
     Run::new(
         assembled(&text),
-        vec![100.0, 200.0],
+        &[100.0, 200.0],
         SolverChoice::Exponential,
         1e-7,
     )

@@ -28,10 +28,10 @@ fn for_all(cases: u32, property: impl Fn(Train) -> Result<(), TestCaseError>) {
 }
 
 fn run(train: &Train, tolerance: f64) -> Run {
-    let torques = train.shafts.iter().map(|shaft| shaft.torque).collect();
+    let torques: Vec<f64> = train.shafts.iter().map(|shaft| shaft.torque).collect();
     Run::new(
         assembled(&train.text()),
-        torques,
+        &torques,
         SolverChoice::Exponential,
         tolerance,
     )
@@ -225,7 +225,7 @@ fn energy_changes_by_the_work_of_torques_and_dampers() {
         let (_, damping) = run.model.mean_matrices();
         let power = |run: &Run| {
             let velocity = DVector::from_column_slice(run.state.velocity());
-            let torques = run.model.torques().zip(&run.inputs.torques);
+            let torques = run.model.torques().zip(run.inputs.torques());
             let given: f64 = torques
                 .map(|(row, torque)| torque * row.dot(run.state.velocity()))
                 .sum();

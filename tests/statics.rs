@@ -163,11 +163,7 @@ fn a_uniform_shift_of_all_supports_gives_no_force() {
         displacement: [3e-4, -2e-4],
         velocity: [0.0; 2],
     };
-    let inputs = Inputs {
-        torques: vec![0.0; 2],
-        bases: vec![shift; model.bearings().count()],
-        forces: Vec::new(),
-    };
+    let inputs = Inputs::new(&[0.0; 2], &vec![shift; model.bearings().count()], &[]);
     let simulation = set_going(model, inputs, Start::Equilibrium, 1e-4);
     let motion = simulation.motion();
     // 1e-9 of the force of one bearing held against the shift.
@@ -240,11 +236,7 @@ fn unbalanced_torque_is_carried_by_rigid_acceleration() {
     let model = assembled(&text);
     // Only rotor one is driven: both gears and shafts accelerate, the mesh passes on the share of rotor
     // two: T R_b J_b' / (R_a (J_a + J_b i^2)) = T / 2 R for equal rotors.
-    let inputs = Inputs {
-        torques: vec![400.0, 0.0],
-        bases: vec![BaseMotion::default(); 4],
-        forces: Vec::new(),
-    };
+    let inputs = Inputs::new(&[400.0, 0.0], &[BaseMotion::default(); 4], &[]);
     let found = equilibrium(&model, &inputs).unwrap();
     assert!(
         (found.mesh_forces[0] / (400.0 / 2.0 / 0.07) - 1.0).abs() < 1e-9,
@@ -282,7 +274,7 @@ fn a_full_set_of_modes_equals_the_finite_element_model() {
     );
     let force = |text: &str| {
         let mut inputs = file_inputs(text);
-        inputs.bases[0].displacement = [1e-4, 0.0];
+        inputs.bases_mut()[0] = [1e-4, 0.0, 0.0, 0.0];
         equilibrium(&assembled(text), &inputs).unwrap().mesh_forces[0]
     };
     let (one, two) = (force(&plain), force(&supported));

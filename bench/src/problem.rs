@@ -104,7 +104,7 @@ pub fn started(train: &GearTrain, settings: &config::Simulation, tolerance: f64)
         ..settings.clone()
     };
     let model = ModalModel::assemble(train, None).expect("the model has modes");
-    let inputs = model.inputs_at_rest(torques(train));
+    let inputs = model.inputs_at_rest(&torques(train));
     Simulation::start(model, inputs, &settings, 0.0).expect("the model has an equilibrium")
 }
 

@@ -34,7 +34,7 @@ impl<'a> Nominals<'a> {
         let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
         let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
         let torque = largest(torques.iter().copied());
-        let inputs = model.inputs_at_rest(torques);
+        let inputs = model.inputs_at_rest(&torques);
         let equilibrium = equilibrium(model, &inputs).ok();
         let force = |index: usize| {
             let statically = equilibrium

@@ -13,7 +13,7 @@ mod table;
 mod unit;
 
 use crate::config::Config;
-use crate::model::{Change, ModalModel, Motion, Place};
+use crate::model::{Change, Inputs, ModalModel, Motion};
 use crate::train::{GearAddress, GearTrain};
 
 pub use coupling::{Contact, Link, contacts_by_name, links};
@@ -135,6 +135,17 @@ pub enum Quantity {
     Modal { coordinate: usize },
 }
 
+/// Where the value of a variable stands ready.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// In the list of inputs.
+    Input(u32),
+    /// In the list of bearing forces, x and y of each.
+    BearingForce(u32),
+    /// It is looked for when somebody asks.
+    Nowhere,
+}
+
 /// A direction of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
@@ -179,23 +190,23 @@ impl Variable {
 }
 
 impl Quantity {
-    /// The place of an input among the inputs; `None` for everything else.
-    pub fn place(self) -> Option<Place> {
-        let at = |index: usize, axis: usize, [x, y]: [fn(u32) -> Place; 2]| {
-            let number = u32::try_from(index).ok()?;
-            Some(if axis == 0 { x(number) } else { y(number) })
-        };
-        match self {
-            Quantity::Torque { torque } => at(torque, 0, [Place::Torque; 2]),
+    /// Where its value stands ready; the inputs are any of the model's.
+    pub fn place(self, inputs: &Inputs) -> Place {
+        let (list, place): (fn(u32) -> Place, usize) = match self {
+            Quantity::Torque { torque } => (Place::Input, inputs.place_of_torque(torque)),
             Quantity::BaseDisplacement { bearing, axis } => {
-                at(bearing, axis, [Place::DisplacementX, Place::DisplacementY])
+                (Place::Input, inputs.place_of_displacement(bearing, axis))
             }
             Quantity::BaseVelocity { bearing, axis } => {
-                at(bearing, axis, [Place::VelocityX, Place::VelocityY])
+                (Place::Input, inputs.place_of_velocity(bearing, axis))
             }
-            Quantity::PointForce { force, axis } => at(force, axis, [Place::ForceX, Place::ForceY]),
-            _ => None,
-        }
+            Quantity::PointForce { force, axis } => {
+                (Place::Input, inputs.place_of_force(force, axis))
+            }
+            Quantity::BearingForce { input, axis, .. } => (Place::BearingForce, 2 * input + axis),
+            _ => return Place::Nowhere,
+        };
+        u32::try_from(place).map_or(Place::Nowhere, list)
     }
 
     /// Whether it is set from outside or follows from such parameters alone, without a model.
@@ -238,7 +249,12 @@ impl Quantity {
                 direction.of(gear.rotor, &rotors[gear.rotor].gears[gear.gear], motion)
             }
             Quantity::GearTorque { gear } => motion.mesh_torque(gear),
-            Quantity::BearingForce { axis, .. } => self.bearing_force(motion)[axis],
+            Quantity::BearingForce {
+                rotor,
+                bearing,
+                input,
+                axis,
+            } => motion.bearing_force(rotor, &rotors[rotor].bearings[bearing], input)[axis],
             Quantity::BearingMotion {
                 rotor,
                 bearing,
@@ -255,19 +271,6 @@ impl Quantity {
             Quantity::PointVelocity { point, axis } => motion.point_velocity(point)[axis],
             Quantity::PointAcceleration { point, axis } => motion.point_acceleration(point)[axis],
             Quantity::Modal { coordinate } => motion.state.position()[coordinate],
-        }
-    }
-
-    /// Both components of the force of a bearing [N]; NaN for everything else.
-    pub fn bearing_force(self, motion: &Motion<'_>) -> [f64; 2] {
-        match self {
-            Quantity::BearingForce {
-                rotor,
-                bearing,
-                input,
-                ..
-            } => motion.bearing_force(rotor, &motion.model.rotors[rotor].bearings[bearing], input),
-            _ => [f64::NAN; 2],
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Couplings stand in the order meshes, radial bearings, free rotations; the laws of [`super::Excitation`] find theirs by
 //! the number of the first one.
 
+use super::bearing_force::BearingForce;
 use super::inputs::{self, SupportVibration};
 use super::known_bearings::KnownBearings;
 use super::layout::{Coordinates, Layout};
@@ -56,6 +57,7 @@ impl ModalModel {
         for mesh in &train.meshes {
             meshes.push(join(&mut system, &rotors, mesh, free));
         }
+        let slack = meshes.iter().map(|mesh| mesh.slack(1.0)).reduce(f64::min);
         let radial = add_radial_bearings(&mut system, &rotors);
         system.springs = system.couplings.len();
         let mut spins = Vec::new();
@@ -77,17 +79,20 @@ impl ModalModel {
         system.loads = inputs::columns(&rotors, housing.as_ref());
         system.slow = spins.iter().map(|spin| rotors[spin.rotor].speed).collect();
         harmonics.extend(vibration.harmonic(&rotors, system.size));
+        let bearing_forces = BearingForce::of_all(&mut system, &rotors);
         system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
         Ok(ModalModel {
             system,
-            rotors,
             meshes,
+            slack: slack.filter(|slack| slack.is_finite()).unwrap_or(0.0),
             radial,
             spins,
             harmonics,
+            bearing_forces,
             vibration,
             known_bearings: known_bearings(train, housing.as_ref()),
             housing,
+            rotors,
         })
     }
 }
@@ -149,18 +154,12 @@ fn add_rotor<'a>(
             relative,
             stiffness: coefficients.stiffness,
             damping: coefficients.damping,
-            reading: None,
             follows_speed: free && bearing.depends_on_speed(),
             bearing: bearing.clone(),
         }
     };
     let bearings = rotor.bearings.iter().enumerate().map(bearing);
-    let mut bearings: Vec<Bearing> = bearings.collect();
-    let linear = |one: &&mut Bearing| !one.follows_speed && one.bearing.nonlinear.is_none();
-    for bearing in bearings.iter_mut().filter(linear) {
-        bearing.reading = Some(system.readings.len());
-        system.readings.extend(bearing.readings());
-    }
+    let bearings: Vec<Bearing> = bearings.collect();
     Rotor {
         counts: modal.counts(),
         has_rigid_rotation: modal.has_rigid_rotation(),

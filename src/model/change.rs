@@ -205,6 +205,6 @@ impl Change<'_> {
     /// Change of the gearbox's motion at a bearing.
     fn base(&self, input: usize) -> BaseMotion {
         let vibration = self.motion.model.vibration.rate(self.motion.state.time);
-        self.inputs.bases[input].plus(&vibration.times(self.time))
+        self.inputs.base(input).plus(&vibration.times(self.time))
     }
 }

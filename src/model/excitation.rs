@@ -107,9 +107,7 @@ impl Forcing for Excitation<'_> {
     }
 
     fn slack(&self, tolerance: f64) -> f64 {
-        let meshes = self.model.meshes.iter();
-        let slack = meshes.map(|mesh| mesh.slack(tolerance)).reduce(f64::min);
-        slack.filter(|slack| slack.is_finite()).unwrap_or(0.0)
+        self.model.slack * tolerance.sqrt().sqrt()
     }
 
     fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]) {

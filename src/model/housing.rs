@@ -211,7 +211,7 @@ impl Motion<'_> {
         let held = |input| self.force_on_gearbox(input);
         self.model
             .housing()
-            .acceleration(point, motion, held, &self.inputs.forces)
+            .acceleration(point, motion, held, self.inputs.forces())
     }
 }
 
@@ -235,6 +235,6 @@ impl Change<'_> {
         self.motion
             .model
             .housing()
-            .acceleration(point, motion, held, &self.inputs.forces)
+            .acceleration(point, motion, held, self.inputs.forces())
     }
 }

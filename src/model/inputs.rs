@@ -10,47 +10,31 @@ use core::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bearing, Housing, ModalModel, Rotor};
+use super::{Housing, ModalModel, Rotor};
 use crate::config::{GearboxVibration, Planar};
 use crate::solver::{Harmonic, Ramp, Row, State};
 
-/// Everything a master sets while the simulation runs, or how it changes per second.
+/// Everything a master sets while the simulation runs, or how it changes per second, as one list of numbers:
+///
+/// ```text
+///   torques | x y x' y' of the gearbox at every bearing | x y of every force on the housing
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
-    /// External torques [N m], in the order of [`ModalModel::torques`].
-    pub torques: Vec<f64>,
-    /// Gearbox motion, in the order of [`ModalModel::bearings`]; none where a housing in the model moves the bearing.
-    pub bases: Vec<BaseMotion>,
-    /// Forces from outside on the points of the housing that take some, in x and y [N].
-    pub forces: Vec<[f64; 2]>,
+    values: Vec<f64>,
+    /// Number of torques.
+    torques: usize,
+    /// Number of bearings.
+    bases: usize,
 }
 
 /// Motion of the gearbox at one bearing.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BaseMotion {
     /// Displacement in x and y [m].
     pub displacement: [f64; 2],
     /// Velocity in x and y [m/s].
     pub velocity: [f64; 2],
-}
-
-/// One of the inputs: its kind, and the number of the torque, bearing or force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// A torque.
-    Torque(u32),
-    /// Displacement of the gearbox in x.
-    DisplacementX(u32),
-    /// Displacement of the gearbox in y.
-    DisplacementY(u32),
-    /// Velocity of the gearbox in x.
-    VelocityX(u32),
-    /// Velocity of the gearbox in y.
-    VelocityY(u32),
-    /// A force on the housing in x.
-    ForceX(u32),
-    /// A force on the housing in y.
-    ForceY(u32),
 }
 
 /// The inputs while a call lasts: first + (t - since) rate.
@@ -75,94 +59,132 @@ pub(super) struct SupportVibration {
 }
 
 impl Inputs {
-    /// The input at a place.
-    pub fn at(&self, place: Place) -> f64 {
-        match place {
-            Place::Torque(torque) => self.torques[torque as usize],
-            Place::DisplacementX(bearing) => self.bases[bearing as usize].displacement[0],
-            Place::DisplacementY(bearing) => self.bases[bearing as usize].displacement[1],
-            Place::VelocityX(bearing) => self.bases[bearing as usize].velocity[0],
-            Place::VelocityY(bearing) => self.bases[bearing as usize].velocity[1],
-            Place::ForceX(force) => self.forces[force as usize][0],
-            Place::ForceY(force) => self.forces[force as usize][1],
+    /// External torques [N m] in the order of [`ModalModel::torques`]; gearbox motion in the order of [`ModalModel::bearings`],
+    /// none where a housing in the model moves the bearing; forces from outside on the points of the housing that take some, in
+    /// x and y [N].
+    pub fn new(torques: &[f64], bases: &[BaseMotion], forces: &[[f64; 2]]) -> Inputs {
+        let of_bases = bases.iter().flat_map(BaseMotion::numbers);
+        let values = torques.iter().copied().chain(of_bases);
+        Inputs {
+            values: values.chain(forces.iter().flatten().copied()).collect(),
+            torques: torques.len(),
+            bases: bases.len(),
         }
     }
 
-    /// Puts a value in its place.
-    #[inline(always)]
-    pub fn put(&mut self, place: Place, value: f64) {
-        let (bases, forces) = (&mut self.bases, &mut self.forces);
-        match place {
-            Place::Torque(torque) => self.torques[torque as usize] = value,
-            Place::DisplacementX(bearing) => bases[bearing as usize].displacement[0] = value,
-            Place::DisplacementY(bearing) => bases[bearing as usize].displacement[1] = value,
-            Place::VelocityX(bearing) => bases[bearing as usize].velocity[0] = value,
-            Place::VelocityY(bearing) => bases[bearing as usize].velocity[1] = value,
-            Place::ForceX(force) => forces[force as usize][0] = value,
-            Place::ForceY(force) => forces[force as usize][1] = value,
-        }
+    /// External torques [N m].
+    pub fn torques(&self) -> &[f64] {
+        &self.values[..self.torques]
+    }
+
+    /// The same, to be changed.
+    pub fn torques_mut(&mut self) -> &mut [f64] {
+        &mut self.values[..self.torques]
+    }
+
+    /// Motion of the gearbox at a bearing.
+    pub fn base(&self, bearing: usize) -> BaseMotion {
+        let (start, _) = self.values[self.torques + 4 * bearing..].as_chunks();
+        BaseMotion::of(start[0])
+    }
+
+    /// Changes the motion of the gearbox at a bearing.
+    pub fn set_base(&mut self, bearing: usize, base: BaseMotion) {
+        self.bases_mut()[bearing] = base.numbers();
+    }
+
+    /// x, y, x' and y' of the gearbox at every bearing [m, m/s].
+    pub fn bases(&self) -> &[[f64; 4]] {
+        self.values[self.torques..][..4 * self.bases].as_chunks().0
+    }
+
+    /// The same, to be changed.
+    pub fn bases_mut(&mut self) -> &mut [[f64; 4]] {
+        let bases = &mut self.values[self.torques..][..4 * self.bases];
+        bases.as_chunks_mut().0
+    }
+
+    /// Forces on the housing in x and y [N].
+    pub fn forces(&self) -> &[[f64; 2]] {
+        let forces = &self.values[self.torques + 4 * self.bases..];
+        forces.as_chunks().0
+    }
+
+    /// The same, to be changed.
+    pub fn forces_mut(&mut self) -> &mut [[f64; 2]] {
+        let forces = &mut self.values[self.torques + 4 * self.bases..];
+        forces.as_chunks_mut().0
+    }
+
+    /// The whole list.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The same, to be changed.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Where in the list a torque is.
+    pub fn place_of_torque(&self, torque: usize) -> usize {
+        torque
+    }
+
+    /// Where the gearbox's displacement at a bearing is, in x (0) or y (1).
+    pub fn place_of_displacement(&self, bearing: usize, axis: usize) -> usize {
+        self.torques + 4 * bearing + axis
+    }
+
+    /// Where its velocity is.
+    pub fn place_of_velocity(&self, bearing: usize, axis: usize) -> usize {
+        self.place_of_displacement(bearing, 2 + axis)
+    }
+
+    /// Where a force on the housing is.
+    pub fn place_of_force(&self, force: usize, axis: usize) -> usize {
+        self.torques + 4 * self.bases + 2 * force + axis
     }
 
     /// Takes over the values of others of the same shape; allocates nothing.
+    #[inline]
     pub fn overwrite(&mut self, others: &Inputs) {
-        self.torques.copy_from_slice(&others.torques);
-        self.bases.copy_from_slice(&others.bases);
-        self.forces.copy_from_slice(&others.forces);
+        self.values.copy_from_slice(&others.values);
     }
 
     /// Adds what changes in `elapsed` seconds.
     pub fn add_change(&mut self, rate: &Inputs, elapsed: f64) {
-        for (torque, rate) in self.torques.iter_mut().zip(&rate.torques) {
-            *torque += elapsed * rate;
-        }
-        for (base, rate) in self.bases.iter_mut().zip(&rate.bases) {
-            *base = base.plus(&rate.times(elapsed));
-        }
-        let forces = self.forces.iter_mut().flatten();
-        for (force, rate) in forces.zip(rate.forces.iter().flatten()) {
-            *force += elapsed * rate;
+        for (value, rate) in self.values.iter_mut().zip(&rate.values) {
+            *value += elapsed * rate;
         }
     }
 
     /// Whether there are as many inputs of every kind in both.
     pub fn is_like(&self, other: &Inputs) -> bool {
-        self.torques.len() == other.torques.len()
-            && self.bases.len() == other.bases.len()
-            && self.forces.len() == other.forces.len()
+        let lengths = |inputs: &Inputs| (inputs.torques, inputs.bases, inputs.values.len());
+        lengths(self) == lengths(other)
     }
 
     /// Whether all of them are numbers.
     pub fn is_finite(&self) -> bool {
-        let of_bases = self.bases.iter();
-        let of_bases = of_bases.flat_map(|base| base.displacement.iter().chain(&base.velocity));
-        self.torques
-            .iter()
-            .chain(of_bases)
-            .chain(self.forces.iter().flatten())
-            .all(|value| value.is_finite())
+        self.values.iter().all(|value| value.is_finite())
     }
 
-    /// Puts down the values along the columns of [`columns`]. Where bearings follow a free speed, the motion of the gearbox
-    /// acts through [`super::Excitation`] instead.
+    /// Puts down the values along the columns of [`columns`].
     fn exert(&self, model: &ModalModel, loads: &mut [Ramp], put: impl Fn(&mut Ramp, f64)) {
-        let (of_torques, others) = loads.split_at_mut(self.torques.len());
-        let (of_bearings, of_forces) = others.split_at_mut(2 * self.bases.len());
-        for (load, &torque) in of_torques.iter_mut().zip(&self.torques) {
+        let (of_torques, others) = loads.split_at_mut(self.torques);
+        let (of_bearings, of_forces) = others.split_at_mut(2 * self.bases);
+        for (load, &torque) in of_torques.iter_mut().zip(self.torques()) {
             put(load, torque);
         }
-        let mut pairs = of_bearings.as_chunks_mut().0.iter_mut().zip(&self.bases);
-        for rotor in &model.rotors {
-            for (bearing, ([x, y], base)) in rotor.bearings.iter().zip(&mut pairs) {
-                let force = if bearing.follows_speed {
-                    [0.0; 2]
-                } else {
-                    bearing.base_force(base)
-                };
-                put(x, force[0]);
-                put(y, force[1]);
-            }
+        let pairs = of_bearings.as_chunks_mut().0.iter_mut();
+        let bases = self.bases().iter().zip(&model.bearing_forces);
+        for ([x, y], (&base, bearing)) in pairs.zip(bases) {
+            let force = bearing.by_gearbox(base);
+            put(x, force[0]);
+            put(y, force[1]);
         }
-        for (load, &force) in of_forces.iter_mut().zip(self.forces.as_flattened()) {
+        for (load, &force) in of_forces.iter_mut().zip(self.forces().as_flattened()) {
             put(load, force);
         }
     }
@@ -170,18 +192,14 @@ impl Inputs {
     /// The generalized load of torques, gearbox displacements and forces on the housing.
     pub(super) fn static_load(&self, model: &ModalModel) -> Vec<f64> {
         let mut load = vec![0.0; model.system.size];
-        for (row, &torque) in model.torques().zip(&self.torques) {
+        for (row, &torque) in model.torques().zip(self.torques()) {
             row.add_to(torque, &mut load);
         }
-        for (bearing, base) in model.bearings().zip(&self.bases) {
-            let still = BaseMotion {
-                velocity: [0.0; 2],
-                ..*base
-            };
-            bearing.base_load(&still, &mut load);
+        for (bearing, &[x, y, ..]) in model.bearings().zip(self.bases()) {
+            bearing.base_load(BaseMotion::of([x, y, 0.0, 0.0]), &mut load);
         }
         let loaded = model.housing.iter().flat_map(Housing::loaded);
-        for (row, &force) in loaded.zip(self.forces.iter().flatten()) {
+        for (row, &force) in loaded.zip(self.forces().as_flattened()) {
             row.add_to(force, &mut load);
         }
         load
@@ -200,10 +218,10 @@ impl Course<'_> {
 
     /// Motion of the gearbox at a bearing.
     pub(super) fn base(&self, input: usize, time: f64) -> BaseMotion {
-        let first = self.first.bases[input];
+        let first = self.first.base(input);
         match self.rate {
             None => first,
-            Some(rate) => first.plus(&rate.bases[input].times(time - self.since)),
+            Some(rate) => first.plus(&rate.base(input).times(time - self.since)),
         }
     }
 }
@@ -219,6 +237,20 @@ pub(super) fn columns(rotors: &[Rotor], housing: Option<&Housing>) -> Vec<Row> {
 }
 
 impl BaseMotion {
+    /// From x, y, x' and y'.
+    pub(super) fn of([x, y, x_rate, y_rate]: [f64; 4]) -> BaseMotion {
+        BaseMotion {
+            displacement: [x, y],
+            velocity: [x_rate, y_rate],
+        }
+    }
+
+    /// x, y, x' and y'.
+    pub(super) fn numbers(&self) -> [f64; 4] {
+        let ([x, y], [x_rate, y_rate]) = (self.displacement, self.velocity);
+        [x, y, x_rate, y_rate]
+    }
+
     /// A multiple of the motion.
     pub(super) fn times(&self, factor: f64) -> BaseMotion {
         BaseMotion {
@@ -233,22 +265,6 @@ impl BaseMotion {
         BaseMotion {
             displacement: sum(self.displacement, other.displacement),
             velocity: sum(self.velocity, other.velocity),
-        }
-    }
-}
-
-impl Bearing {
-    /// K u_b + C u_b'.
-    pub(super) fn base_force(&self, base: &BaseMotion) -> [f64; 2] {
-        let spring = product(&self.stiffness, base.displacement);
-        let damper = product(&self.damping, base.velocity);
-        [spring[0] + damper[0], spring[1] + damper[1]]
-    }
-
-    /// load += r' (K u_b + C u_b').
-    fn base_load(&self, base: &BaseMotion, load: &mut [f64]) {
-        for (row, force) in self.relative.iter().zip(self.base_force(base)) {
-            row.add_to(force, load);
         }
     }
 }
@@ -285,11 +301,12 @@ impl SupportVibration {
 
     /// Motion of every support in a state; of the harmonics it is the last one.
     pub(super) fn in_state(&self, state: &State, harmonics: &[Harmonic]) -> BaseMotion {
-        let last = harmonics.len().wrapping_sub(1);
-        match state.turned(last) {
-            Some(angle) if self.amplitude != [0.0, 0.0] => self.at(angle),
-            _ => self.motion(state.time),
+        if self.amplitude == [0.0, 0.0] {
+            return BaseMotion::default();
         }
+        let last = harmonics.len().wrapping_sub(1);
+        let turned = state.turned(last).map(|angle| self.at(angle));
+        turned.unwrap_or_else(|| self.motion(state.time))
     }
 
     /// Rate of that motion at `time`: velocity and acceleration.
@@ -322,7 +339,7 @@ impl SupportVibration {
             let motion = self.at(turned);
             let bearings = rotors.iter().flat_map(|rotor| &rotor.bearings);
             for bearing in bearings.filter(|bearing| !bearing.follows_speed) {
-                bearing.base_load(&motion, &mut load);
+                bearing.base_load(motion, &mut load);
             }
             load
         };

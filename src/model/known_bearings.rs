@@ -127,7 +127,7 @@ impl Motion<'_> {
             let velocity = bearing.rows.each_ref().map(|row| self.velocity(row));
             let acceleration = [0, 1].map(|axis| {
                 let [per_displacement, per_velocity] = &bearing.recoil;
-                let forces = self.inputs.forces.iter().flatten();
+                let forces = self.inputs.forces().as_flattened();
                 let pushed = bearing.mobility[axis].iter().zip(forces);
                 self.displacement(&per_displacement[axis])
                     + self.velocity(&per_velocity[axis])
@@ -150,7 +150,7 @@ impl KnownBearing {
         let spring = product(&self.coefficients.stiffness, moved);
         let damper = product(&self.coefficients.damping, rate);
         for axis in 0..2 {
-            forces.forces[self.force][axis] += factor * (spring[axis] + damper[axis]);
+            forces.forces_mut()[self.force][axis] += factor * (spring[axis] + damper[axis]);
         }
     }
 }

@@ -17,6 +17,7 @@
 //! [`Motion`] for what the outside sees. Knows no FMI and no solver but its [`System`].
 
 mod assembly;
+mod bearing_force;
 mod change;
 mod coupled;
 mod equilibrium;
@@ -36,7 +37,7 @@ use nalgebra::DMatrix;
 use crate::config::{Planar, TorqueCoupling};
 use crate::mesh::{GearLoad, LineOfAction, StiffnessLaw, TransmissionError};
 use crate::rotor::{ModalRotor, ModeCounts};
-use crate::solver::{Block, Harmonic, Reading, Row, System};
+use crate::solver::{Block, Harmonic, Row, System};
 use crate::train::{self, GearAddress};
 
 pub use change::Change;
@@ -44,11 +45,12 @@ pub use coupled::NaturalVibration;
 pub use equilibrium::{Equilibrium, NoEquilibrium, equilibrium, equilibrium_change};
 pub use excitation::Excitation;
 pub use housing::{Housing, Mode, Point};
-pub use inputs::{BaseMotion, Course, Inputs, Place};
+pub use inputs::{BaseMotion, Course, Inputs};
 pub use layout::Coordinates;
 pub use motion::Motion;
 pub use radial::RadialBearing;
 
+use bearing_force::BearingForce;
 use inputs::SupportVibration;
 use known_bearings::KnownBearings;
 use spin::Spin;
@@ -62,12 +64,17 @@ pub struct ModalModel {
     pub rotors: Vec<Rotor>,
     /// The meshes.
     pub meshes: Vec<Mesh>,
+    /// How far from the ends of pieces of their stiffness a step may end where the tolerance is 1 [s]: with the fourth root of
+    /// the tolerance ([`StiffnessLaw::slack`]).
+    slack: f64,
     /// Bearings with a radial force in addition.
     radial: Vec<RadialBearing>,
     /// In free spin one for every rotor, otherwise none.
     spins: Vec<Spin>,
     /// Everything that excites with a fixed frequency: unbalance and bow at prescribed speed, gearbox vibration.
     harmonics: Vec<Harmonic>,
+    /// What the forces of all bearings follow from.
+    bearing_forces: Vec<BearingForce>,
     /// Motion of all supports in addition to the inputs.
     vibration: SupportVibration,
     /// The structure around the rotors.
@@ -133,9 +140,6 @@ pub struct Bearing {
     pub stiffness: Planar,
     /// Damping at the mean speed [N s/m].
     pub damping: Planar,
-    /// The first of the two readings of the system that are its forces on a gearbox that stands still, where these follow from
-    /// displacements and velocities by constant factors.
-    reading: Option<usize>,
     /// Whether both follow a speed that changes, and the gearbox's motion acts through them then.
     follows_speed: bool,
     bearing: train::Bearing,
@@ -215,13 +219,10 @@ impl ModalModel {
     }
 
     /// Nothing moves and acts from outside but these torques.
-    pub fn inputs_at_rest(&self, torques: Vec<f64>) -> Inputs {
+    pub fn inputs_at_rest(&self, torques: &[f64]) -> Inputs {
         let loaded = self.housing.iter().flat_map(Housing::loaded).count() / 2;
-        Inputs {
-            torques,
-            bases: vec![BaseMotion::default(); self.bearings().count()],
-            forces: vec![[0.0; 2]; loaded],
-        }
+        let still = vec![BaseMotion::default(); self.bearings().count()];
+        Inputs::new(torques, &still, &vec![[0.0; 2]; loaded])
     }
 
     /// Overwrites the lateral blocks with those at these speeds of the rotors [rad/s].
@@ -272,21 +273,6 @@ impl Rotor {
 }
 
 impl Bearing {
-    /// K u + C u' in x and y, where the gearbox stands still.
-    fn readings(&self) -> [Reading; 2] {
-        let along = |matrix: &Planar, axis: usize| {
-            let mut row = Row::default();
-            for (factor, relative) in matrix.rows()[axis].into_iter().zip(&self.relative) {
-                row.add(factor, relative);
-            }
-            row
-        };
-        [0, 1].map(|axis| Reading {
-            position: along(&self.stiffness, axis),
-            velocity: along(&self.damping, axis),
-        })
-    }
-
     /// Stiffness [N/m] and damping [N s/m] at a speed of the rotor [rad/s].
     fn at_speed(&self, speed: f64) -> (Planar, Planar) {
         if self.follows_speed {

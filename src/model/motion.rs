@@ -8,8 +8,6 @@
 //! Every quantity is computed when it is asked for, from the state, the inputs and the time. Of the state, what meshes and
 //! linear bearings need is always there; displacements and velocities are put together for the rest.
 
-use super::inputs::product;
-use super::radial::secant;
 use super::tooth_contact::Phase;
 use super::{BaseMotion, Bearing, Inputs, Mesh, ModalModel};
 use crate::config::TorqueCoupling;
@@ -27,7 +25,7 @@ pub struct Motion<'a> {
     /// What is set from outside.
     pub inputs: &'a Inputs,
     /// Motion of all supports in addition.
-    vibration: BaseMotion,
+    pub(super) vibration: BaseMotion,
 }
 
 impl<'a> Motion<'a> {
@@ -144,37 +142,6 @@ impl Motion<'_> {
             .sum()
     }
 
-    /// Force of the rotor on the gearbox through a bearing [N]; `input` is the bearing's place among the
-    /// inputs.
-    pub fn bearing_force(&self, rotor: usize, bearing: &Bearing, input: usize) -> [f64; 2] {
-        if let Some(first) = bearing.reading {
-            let by_gearbox = bearing.base_force(&self.gearbox(input));
-            return [0, 1].map(|axis| self.state.reading(first + axis) - by_gearbox[axis]);
-        }
-        let BaseMotion {
-            displacement,
-            velocity,
-        } = self.relative_to_gearbox(bearing, input);
-        let (stiffness, damping) = bearing.at_speed(self.speed(rotor));
-        let spring = product(&stiffness, displacement);
-        let damper = product(&damping, velocity);
-        let mut force = [spring[0] + damper[0], spring[1] + damper[1]];
-        let mut radial = self.model.radial.iter();
-        if let Some(radial) = radial.find(|radial| radial.input == input) {
-            let [x, y] = displacement;
-            let secant = secant(&radial.force, libm::hypot(x, y));
-            force[0] += secant * x;
-            force[1] += secant * y;
-        }
-        force
-    }
-
-    /// The same for the bearing at a place among the inputs.
-    pub(super) fn force_on_gearbox(&self, input: usize) -> [f64; 2] {
-        let (rotor, bearing) = self.model.bearing_of(input);
-        self.bearing_force(rotor, bearing, input)
-    }
-
     /// Motion of the shaft at a bearing relative to the gearbox.
     pub(super) fn relative_to_gearbox(&self, bearing: &Bearing, input: usize) -> BaseMotion {
         let rows = bearing.relative.each_ref();
@@ -187,6 +154,6 @@ impl Motion<'_> {
 
     /// Motion of the gearbox at a bearing.
     fn gearbox(&self, input: usize) -> BaseMotion {
-        self.inputs.bases[input].plus(&self.vibration)
+        self.inputs.base(input).plus(&self.vibration)
     }
 }

@@ -11,7 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::{BaseMotion, Inputs};
+use crate::model::Inputs;
 
 /// A step may be so many times longer than the one before: beyond, what happened there says nothing.
 const LONGER: f64 = 4.0;
@@ -48,24 +48,15 @@ impl Continuation {
     pub(super) fn rate(&mut self, inputs: &Inputs, next: f64, share: f64) -> &Inputs {
         let line = Line::over(self.steps, next, share);
         let ([one, two], change) = (&self.before, &mut self.rate);
-        let torques = inputs.torques.iter().zip(&one.torques).zip(&two.torques);
-        for (((now, one), two), change) in torques.zip(&mut change.torques) {
+        let past = one.values().iter().zip(two.values());
+        let all = inputs.values().iter().zip(past);
+        for ((now, (one, two)), change) in all.zip(change.values_mut()) {
             *change = line.of(*now, *one, *two);
         }
-        let past = one.forces.iter().flatten().zip(two.forces.iter().flatten());
-        let forces = inputs.forces.iter().flatten().zip(past);
-        for ((now, (one, two)), change) in forces.zip(change.forces.iter_mut().flatten()) {
-            *change = line.of(*now, *one, *two);
-        }
-        let bases = inputs.bases.iter().zip(&one.bases).zip(&two.bases);
-        for (((now, one), two), change) in bases.zip(&mut change.bases) {
-            let velocity = [0, 1]
-                .map(|axis| line.of(now.velocity[axis], one.velocity[axis], two.velocity[axis]));
-            *change = BaseMotion {
-                displacement: [0, 1]
-                    .map(|axis| share * now.velocity[axis] + 0.5 * next * velocity[axis]),
-                velocity,
-            };
+        for (now, change) in inputs.bases().iter().zip(change.bases_mut()) {
+            for axis in 0..2 {
+                change[axis] = share * now[2 + axis] + 0.5 * next * change[2 + axis];
+            }
         }
         &self.rate
     }
@@ -114,16 +105,14 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::BaseMotion;
 
     fn inputs(torque: f64, displacement: f64, velocity: f64) -> Inputs {
-        Inputs {
-            torques: vec![torque],
-            bases: vec![BaseMotion {
-                displacement: [displacement, 0.0],
-                velocity: [velocity, 0.0],
-            }],
-            forces: vec![[2.0 * torque, 0.0]],
-        }
+        let base = BaseMotion {
+            displacement: [displacement, 0.0],
+            velocity: [velocity, 0.0],
+        };
+        Inputs::new(&[torque], &[base], &[[2.0 * torque, 0.0]])
     }
 
     #[test]
@@ -134,11 +123,11 @@ mod tests {
         continuation.note(&inputs(0.01, 0.0, 0.01), 0.2);
         let rate = continuation.rate(&inputs(0.09, 0.005, 0.09), 0.3, 1.0);
         // Half the step times the slope from 0.09 to the mean.
-        assert!((0.15 * rate.torques[0] - 0.12).abs() < 1e-15);
-        assert!((0.15 * rate.forces[0][0] - 0.24).abs() < 1e-15);
-        assert!((0.15 * rate.bases[0].velocity[0] - 0.12).abs() < 1e-15);
+        assert!((0.15 * rate.torques()[0] - 0.12).abs() < 1e-15);
+        assert!((0.15 * rate.forces()[0][0] - 0.24).abs() < 1e-15);
+        assert!((0.15 * rate.base(0).velocity[0] - 0.12).abs() < 1e-15);
         // The mean velocity.
-        assert!((rate.bases[0].displacement[0] - 0.21).abs() < 1e-15);
+        assert!((rate.base(0).displacement[0] - 0.21).abs() < 1e-15);
     }
 
     #[test]
@@ -146,7 +135,9 @@ mod tests {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(5.0, 0.0, 0.0), 1e-9);
         assert_eq!(
-            continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3, 1.0).torques,
+            continuation
+                .rate(&inputs(6.0, 0.0, 0.0), 0.3, 1.0)
+                .torques(),
             [0.0]
         );
     }
@@ -156,20 +147,15 @@ mod tests {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         continuation.note(&inputs(5.0, 0.0, 0.0), 0.1);
         let rate = continuation.rate(&inputs(6.0, 0.0, 0.0), 0.3, 1.0);
-        assert!((rate.torques[0] - 10.0).abs() < 1e-12);
+        assert!((rate.torques()[0] - 10.0).abs() < 1e-12);
     }
 
     #[test]
     fn before_the_first_step_only_displacements_move() {
         let mut continuation = Continuation::new(&inputs(0.0, 0.0, 0.0));
         let rate = continuation.rate(&inputs(6.0, 0.005, 0.1), 0.3, 1.0);
-        assert_eq!(
-            rate,
-            &Inputs {
-                torques: vec![0.0],
-                forces: vec![[0.0; 2]],
-                ..inputs(0.0, 0.1, 0.0)
-            }
-        );
+        let mut only = inputs(0.0, 0.1, 0.0);
+        only.forces_mut()[0] = [0.0; 2];
+        assert_eq!(rate, &only);
     }
 }

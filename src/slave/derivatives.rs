@@ -2,9 +2,9 @@
 
 use super::{Error, LifeCycle, Slave};
 use crate::interface::{
-    Causality, INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER, Quantity, Variable,
+    Causality, INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER, Place, Quantity, Variable,
 };
-use crate::model::{Change, Inputs, Place};
+use crate::model::{Change, Inputs};
 
 impl Slave {
     /// fmi2GetDirectionalDerivative: overwrites `result`, one number per unknown. In initialization mode the static
@@ -25,8 +25,7 @@ impl Slave {
             if !seed.is_finite() {
                 return Err(Error::new(format!("the seed must be finite, found {seed}")));
             }
-            let sum = direction.at(*known) + seed;
-            direction.put(*known, sum);
+            direction.values_mut()[*known] += seed;
         }
         let starting = self.life_cycle == LifeCycle::Initialization;
         let start = self.config.simulation.start;
@@ -103,19 +102,24 @@ impl Slave {
         }
         let mut rate = self.rate.take().unwrap_or_else(|| self.no_inputs());
         for (input, &value) in inputs.into_iter().zip(values) {
-            rate.put(input, value);
+            rate.values_mut()[input] = value;
         }
         self.rate = Some(rate);
         Ok(())
     }
 
-    /// The places of inputs.
-    fn inputs_among(&self, references: &[u32]) -> Result<Vec<Place>, Error> {
-        let quantities = self.quantities(references, |variable| match variable.causality() {
+    /// Where inputs are in their list.
+    fn inputs_among(&self, references: &[u32]) -> Result<Vec<usize>, Error> {
+        self.quantities(references, |variable| match variable.causality() {
             Causality::Input => None,
             _ => Some("is no input"),
         })?;
-        Ok(quantities.into_iter().filter_map(Quantity::place).collect())
+        let places = references.iter().map(|one| self.design.place(*one));
+        let inputs = places.filter_map(|place| match place {
+            Place::Input(place) => Some(place as usize),
+            _ => None,
+        });
+        Ok(inputs.collect())
     }
 
     /// What variables stand for; `refuse` says what is wrong with one.
@@ -135,7 +139,7 @@ impl Slave {
     }
 
     fn no_inputs(&self) -> Inputs {
-        self.design.inputs(vec![0.0; self.design.torques.len()])
+        self.design.inputs(&vec![0.0; self.design.torques.len()])
     }
 }
 

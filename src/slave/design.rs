@@ -2,8 +2,8 @@
 
 use super::Error;
 use crate::config::{Config, Problem};
-use crate::interface::{Interface, Parameter, Quantity, Variable};
-use crate::model::{Inputs, ModalModel, Place};
+use crate::interface::{Interface, Parameter, Place, Quantity, Variable};
+use crate::model::{Inputs, ModalModel};
 use crate::rotor::ModeCounts;
 use crate::train::{SpeedRatio, speed_ratios, validate};
 
@@ -12,8 +12,8 @@ use crate::train::{SpeedRatio, speed_ratios, validate};
 pub(super) struct Design {
     pub(super) config: Config,
     pub(super) interface: Interface,
-    /// The places of all variables that are inputs.
-    places: Vec<Option<Place>>,
+    /// Where the values of the variables stand ready.
+    places: Vec<Place>,
     pub(super) guid: String,
     /// Kept when parameters change, because the variables of the modes are fixed.
     pub(super) mode_counts: Vec<ModeCounts>,
@@ -28,21 +28,17 @@ impl Design {
         let model =
             ModalModel::assemble(&train, None).map_err(|error| Error::new(error.to_string()))?;
         let interface = Interface::of(&config, &train, &model);
+        let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
+        let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
+        let inputs = model.inputs_at_rest(&torques);
+        let variables = interface.variables.iter();
+        let places = variables.map(|variable| variable.quantity.place(&inputs));
         Ok(Design {
             guid: interface.fingerprint(&config),
-            places: interface
-                .variables
-                .iter()
-                .map(|variable| variable.quantity.place())
-                .collect(),
+            places: places.collect(),
             mode_counts: model.counts(),
             ratios: speed_ratios(&train),
-            torques: train
-                .rotors
-                .iter()
-                .flat_map(|rotor| &rotor.torques)
-                .map(|torque| torque.value)
-                .collect(),
+            torques,
             interface,
             config,
             model,
@@ -56,14 +52,44 @@ impl Design {
         variables.get(index).ok_or_else(|| unknown(reference))
     }
 
-    /// The place of an input; `None` for everything else.
+    /// Whether all these references are of variables.
+    pub(super) fn knows(&self, references: &[u32]) -> bool {
+        let count = self.places.len();
+        let known = |&reference: &u32| usize::try_from(reference).is_ok_and(|index| index < count);
+        // All of them in one go, so that the loop has a single end.
+        let known = references.iter().map(known);
+        known.fold(true, |all, one| all & one)
+    }
+
+    /// Where the value of a variable stands ready; nowhere for unknown ones, too.
     #[inline]
-    pub(super) fn input(&self, reference: u32) -> Option<Place> {
-        *self.places.get(usize::try_from(reference).ok()?)?
+    pub(super) fn place(&self, reference: u32) -> Place {
+        let index = usize::try_from(reference).unwrap_or(usize::MAX);
+        self.places.get(index).copied().unwrap_or(Place::Nowhere)
+    }
+
+    /// What a variable stands for.
+    pub(super) fn quantity(&self, reference: u32) -> Quantity {
+        self.interface.variables[reference as usize].quantity
+    }
+
+    /// What is set from outside, or follows from such parameters alone; `None` for what is computed.
+    pub(super) fn given(
+        &self,
+        reference: u32,
+        config: &mut Config,
+        inputs: &Inputs,
+    ) -> Option<f64> {
+        match (self.place(reference), self.quantity(reference)) {
+            (Place::Input(place), _) => Some(inputs.values()[place as usize]),
+            (_, Quantity::Parameter(parameter)) => Some(*parameter.slot(config)),
+            (_, Quantity::DerivedSpeed { rotor, .. }) => Some(config.rotors[rotor].speed),
+            _ => None,
+        }
     }
 
     /// These torques, and nothing else from outside.
-    pub(super) fn inputs(&self, torques: Vec<f64>) -> Inputs {
+    pub(super) fn inputs(&self, torques: &[f64]) -> Inputs {
         self.model.inputs_at_rest(torques)
     }
 

@@ -84,7 +84,7 @@ impl Slave {
             Error::new("the model inside this library cannot be read; the file is damaged")
         })?;
         let design = Design::of(config)?;
-        let inputs = design.inputs(design.torques.clone());
+        let inputs = design.inputs(&design.torques);
         Ok(Slave {
             config: design.config.clone(),
             continuation: Continuation::new(&inputs),
@@ -167,7 +167,7 @@ impl Slave {
     /// fmi2Reset: as after instantiation.
     pub fn reset(&mut self) {
         self.config.clone_from(&self.design.config);
-        self.inputs = self.design.inputs(self.design.torques.clone());
+        self.inputs = self.design.inputs(&self.design.torques);
         self.rate = None;
         self.continuation = Continuation::new(&self.inputs);
         self.life_cycle = LifeCycle::Instantiated;

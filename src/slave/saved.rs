@@ -35,7 +35,7 @@ pub struct SavedState {
 
 const MAGIC: &[u8; 16] = b"geartrain state\0";
 /// Changes whenever the content of a saved state does.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 /// Magic, version, length, checksum.
 const HEADER: usize = 16 + 4 + 8 + 32;
 
@@ -178,11 +178,7 @@ mod tests {
     use crate::model::BaseMotion;
 
     fn sample() -> SavedState {
-        let inputs = Inputs {
-            torques: vec![3.0],
-            bases: vec![BaseMotion::default(); 2],
-            forces: vec![[0.5, -1.0]],
-        };
+        let inputs = Inputs::new(&[3.0], &[BaseMotion::default(); 2], &[[0.5, -1.0]]);
         SavedState {
             guid: "{a}".to_string(),
             parameters: vec![1.0, -2.5],

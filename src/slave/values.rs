@@ -1,13 +1,47 @@
 //! Values in and out: what references stand for, and which of them may be set when.
 
 use super::{Error, LifeCycle, Slave};
-use crate::interface::{Causality, Parameter, Quantity};
+use crate::interface::{Causality, Parameter, Place, Quantity};
 use crate::simulation::Simulation;
 
 impl Slave {
     /// fmi2GetReal: overwrites `values`, one per reference. Parameters and inputs are readable from the
     /// start, everything else from initialization on.
     pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        let runs = self.simulation.is_some() && self.life_cycle != LifeCycle::Instantiated;
+        if !(runs && self.design.knows(references)) {
+            self.check_readable(references)?;
+        }
+        let Some(running) = &self.simulation else {
+            for (&reference, value) in references.iter().zip(values) {
+                let given = self.design.given(reference, &mut self.config, &self.inputs);
+                *value = given.unwrap_or(f64::NAN);
+            }
+            return Ok(());
+        };
+        let (mut bearing_forces, mut motion) = ([].as_slice(), None); // looked at when first asked for
+        for (&reference, value) in references.iter().zip(values) {
+            *value = match self.design.place(reference) {
+                Place::BearingForce(place) => {
+                    if bearing_forces.is_empty() {
+                        bearing_forces = running.bearing_forces().as_flattened();
+                    }
+                    bearing_forces[place as usize]
+                }
+                _ => match self.design.given(reference, &mut self.config, &self.inputs) {
+                    Some(given) => given,
+                    None => {
+                        let motion = motion.get_or_insert_with(|| running.motion());
+                        self.design.quantity(reference).evaluate(motion)
+                    }
+                },
+            };
+        }
+        Ok(())
+    }
+
+    /// Refuses unknown references, and those of what is not there yet; starts the simulation where they ask for it.
+    fn check_readable(&mut self, references: &[u32]) -> Result<(), Error> {
         let mut computed = false;
         for &reference in references {
             let variable = self.design.variable(reference)?;
@@ -22,27 +56,6 @@ impl Slave {
         }
         if computed {
             self.started()?;
-        }
-        let motion = self.simulation.as_ref().map(Simulation::motion);
-        // Both components of a bearing's force follow from the same motion, and masters read them one after the other.
-        let mut latest = (usize::MAX, [0.0; 2]);
-        for (&reference, value) in references.iter().zip(values) {
-            let quantity = &self.design.variable(reference)?.quantity;
-            *value = match (quantity, &motion) {
-                (&Quantity::BearingForce { input, axis, .. }, Some(motion)) => {
-                    if latest.0 != input {
-                        latest = (input, quantity.bearing_force(motion));
-                    }
-                    latest.1[axis]
-                }
-                (Quantity::Parameter(parameter), _) => *parameter.slot(&mut self.config),
-                (&Quantity::DerivedSpeed { rotor, .. }, _) => self.config.rotors[rotor].speed,
-                (quantity, motion) => match (self.design.input(reference), motion) {
-                    (Some(place), _) => self.inputs.at(place),
-                    (None, Some(motion)) => quantity.evaluate(motion),
-                    (None, None) => f64::NAN,
-                },
-            };
         }
         Ok(())
     }
@@ -65,10 +78,11 @@ impl Slave {
 
     /// Puts values where all of them are numbers for inputs, as in every step; otherwise gives `false` when some may be put.
     fn put_inputs(&mut self, references: &[u32], values: &[f64]) -> bool {
+        let inputs = self.inputs.values_mut();
         let mut pairs = references.iter().zip(values);
-        pairs.all(|(&reference, &value)| match self.design.input(reference) {
-            Some(place) if value.is_finite() => {
-                self.inputs.put(place, value);
+        pairs.all(|(&reference, &value)| match self.design.place(reference) {
+            Place::Input(place) if value.is_finite() => {
+                inputs[place as usize] = value;
                 true
             }
             _ => false,
@@ -81,9 +95,9 @@ impl Slave {
             self.check_settable(reference, value)?;
         }
         for (&reference, &value) in references.iter().zip(values) {
-            match self.design.input(reference) {
-                Some(place) => self.inputs.put(place, value),
-                None => self.set_parameter(reference, value)?,
+            match self.design.place(reference) {
+                Place::Input(place) => self.inputs.values_mut()[place as usize] = value,
+                _ => self.set_parameter(reference, value)?,
             }
         }
         Ok(())

@@ -98,7 +98,8 @@ pub fn assembled(text: &str) -> ModalModel {
 pub fn file_inputs(text: &str) -> Inputs {
     let loaded = valid(text);
     let torques = loaded.train.rotors.iter().flat_map(|rotor| &rotor.torques);
-    assembled(text).inputs_at_rest(torques.map(|torque| torque.value).collect())
+    let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
+    assembled(text).inputs_at_rest(&torques)
 }
 
 /// A simulation as the file describes it, with another tolerance.

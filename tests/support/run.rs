@@ -17,7 +17,7 @@ pub struct Run {
 
 impl Run {
     /// Starts at time 0 with the torques and no gearbox motion, without deformation, the rotors at their first speeds.
-    pub fn new(model: ModalModel, torques: Vec<f64>, solver: SolverChoice, tolerance: f64) -> Run {
+    pub fn new(model: ModalModel, torques: &[f64], solver: SolverChoice, tolerance: f64) -> Run {
         let solver = match solver {
             SolverChoice::Exponential => Integrator::exponential(&model.system, model.harmonics()),
             SolverChoice::Newmark => Integrator::newmark(&model.system),

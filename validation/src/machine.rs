@@ -67,7 +67,8 @@ impl Variant {
         let train = self.train();
         let model = ModalModel::assemble(&train, None).expect("the example has modes");
         let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
-        let inputs = model.inputs_at_rest(torques.map(|torque| torque.value).collect());
+        let inputs =
+            model.inputs_at_rest(&torques.map(|torque| torque.value).collect::<Vec<f64>>());
         Simulation::start(model, inputs, &train.simulation, 0.0).expect("it has an equilibrium")
     }
 

@@ -149,12 +149,12 @@ fn forces(text: &str, tolerance: f64, disturbance: f64) -> Result<Forces, String
     if disturbance != 0.0 {
         let off: Vec<f64> = simulation
             .inputs()
-            .torques
+            .torques()
             .iter()
             .map(|torque| disturbance * torque)
             .collect();
         let add = |simulation: &mut Simulation, sign: f64| {
-            let torques = simulation.inputs_mut().torques.iter_mut();
+            let torques = simulation.inputs_mut().torques_mut().iter_mut();
             torques
                 .zip(&off)
                 .for_each(|(torque, off)| *torque += sign * off);
@@ -171,14 +171,15 @@ fn forces(text: &str, tolerance: f64, disturbance: f64) -> Result<Forces, String
 /// Gives the bearings velocities, and the rates of all inputs.
 fn set_moving(simulation: &mut Simulation) -> Inputs {
     let mut rate = simulation.inputs().clone();
-    rate.torques
+    rate.torques_mut()
         .iter_mut()
         .for_each(|torque| *torque *= INPUTS.0);
-    let bases = simulation.inputs_mut().bases.iter_mut();
-    for ((number, base), rate) in (0_u32..).zip(bases).zip(&mut rate.bases) {
+    let bases = simulation.inputs_mut().bases_mut().iter_mut();
+    for ((number, base), rate) in (0_u32..).zip(bases).zip(rate.bases_mut()) {
         let (sine, cosine) = libm::sincos(1.0 + f64::from(number));
-        let velocity = [INPUTS.1 * cosine, INPUTS.1 * sine];
-        (base.velocity, rate.displacement, rate.velocity) = (velocity, velocity, [0.0; 2]);
+        let [x, y] = [INPUTS.1 * cosine, INPUTS.1 * sine];
+        (base[2], base[3]) = (x, y);
+        *rate = [x, y, 0.0, 0.0];
     }
     rate
 }

@@ -156,8 +156,8 @@ impl StiffnessLaw {
         matches!(self.shape, Shape::Constant { .. } | Shape::Fourier { .. })
     }
 
-    /// How far beyond its ends [pitches] a piece may be continued: infinity for a smooth law, 0 where pieces meet in a
-    /// kink or a jump.
+    /// How far beyond its ends [pitches] a piece may be continued: with the fourth root of the tolerance, infinity for a smooth
+    /// law, 0 where pieces meet in a kink or a jump.
     ///
     /// Ramps of tooth pairs join with two continuous derivatives. Continued by d, k is off by 10 (d/ramp)^3 of a pair, and its
     /// mean over a pitch by 10/4 (d/ramp)^3 d, which is to be 1 % of the tolerance.

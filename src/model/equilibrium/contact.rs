@@ -86,7 +86,7 @@ impl<'a> Laws<'a> {
         let meshes = self.mesh_springs(position).into_iter();
         let mut springs: Vec<StaticSpring> = meshes.map(|one| one.spring).collect();
         for contact in self.radial_contacts(position) {
-            let [dx, dy] = direction.bases[contact.input].displacement;
+            let [dx, dy] = direction.base(contact.input).displacement;
             for ([x, y], stiffness) in contact
                 .directions
                 .into_iter()
@@ -128,7 +128,7 @@ impl<'a> Laws<'a> {
         let couplings = &self.model.system.couplings;
         let contact = |bearing: &RadialBearing| {
             let rows = [0, 1].map(|axis| &couplings[bearing.first_coupling + axis].row);
-            let base = self.inputs.bases[bearing.input].displacement;
+            let base = self.inputs.base(bearing.input).displacement;
             let [x, y] = [0, 1].map(|axis| rows[axis].dot(position) - base[axis]);
             let radius = libm::hypot(x, y);
             let (slope, secant) = (

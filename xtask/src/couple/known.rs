@@ -65,7 +65,8 @@ fn at_start(train: &Model) -> Vec<KnownBearing> {
     let model = &train.model;
     let rotors = train.loaded.train.rotors.iter();
     let torques = rotors.flat_map(|rotor| &rotor.torques);
-    let inputs = model.inputs_at_rest(torques.map(|torque| torque.value).collect());
+    let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
+    let inputs = model.inputs_at_rest(&torques);
     let settings = &train.loaded.config.simulation;
     let simulation = Simulation::start(model.clone(), inputs.clone(), settings, 0.0)
         .unwrap_or_else(|_| Simulation::at_rest(model.clone(), inputs, settings));
@@ -73,8 +74,10 @@ fn at_start(train: &Model) -> Vec<KnownBearing> {
     let count = train.bearings().len();
     let answers = |input: usize, axis: usize| {
         let push = |of: fn(&mut BaseMotion) -> &mut [f64; 2]| {
-            let mut direction = model.inputs_at_rest(vec![0.0; model.torques().count()]);
-            of(&mut direction.bases[input])[axis] = 1.0;
+            let mut direction = model.inputs_at_rest(&vec![0.0; torques.len()]);
+            let mut base = BaseMotion::default();
+            of(&mut base)[axis] = 1.0;
+            direction.set_base(input, base);
             let change = Change {
                 motion: simulation.motion(),
                 position: &still,

@@ -63,18 +63,18 @@ pub fn expected(case: &Case) -> Vec<f64> {
     let Loaded { config, train, .. } = load(&model_file(case)).expect("the example is valid");
     let model = ModalModel::assemble(&train, None).expect("the example has modes");
     let torques = train.rotors.iter().flat_map(|rotor| &rotor.torques);
-    let torques = torques.map(|torque| torque.value).collect();
-    let inputs = model.inputs_at_rest(torques);
+    let torques: Vec<f64> = torques.map(|torque| torque.value).collect();
+    let inputs = model.inputs_at_rest(&torques);
     let mut simulation = Simulation::start(model, inputs, &config.simulation, 0.0)
         .expect("the example has an equilibrium");
     let mut forces = Vec::new();
     for index in 0..STEPS {
         let inputs = simulation.inputs_mut();
         if index >= 100 {
-            inputs.torques[0] = case.torque;
+            inputs.torques_mut()[0] = case.torque;
         }
         if index >= 200 {
-            inputs.bases[1].displacement[1] = case.displacement;
+            inputs.bases_mut()[1][1] = case.displacement;
         }
         simulation
             .advance_to(f64::from(index) * STEP + STEP)

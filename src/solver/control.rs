@@ -36,10 +36,18 @@ impl Control {
 
     /// Step to try in these pieces [s]: the shortest that any of them asks for.
     pub(super) fn step_in(&self, pieces: &[Piece]) -> f64 {
-        let by_piece = self.by_piece.iter().zip(pieces);
-        let known = by_piece.map(|(wanted, piece)| wanted[piece.index % KINDS]);
-        let known = known.filter(|&wanted| wanted > 0.0);
-        known.reduce(f64::min).unwrap_or(self.wanted_step)
+        let mut shortest = f64::INFINITY;
+        for (wanted, piece) in self.by_piece.iter().zip(pieces) {
+            let wanted = wanted[piece.index % KINDS];
+            if wanted > 0.0 && wanted < shortest {
+                shortest = wanted;
+            }
+        }
+        if shortest < f64::INFINITY {
+            shortest
+        } else {
+            self.wanted_step
+        }
     }
 
     /// The last step in these pieces asks for this one [s], or at least for it. What decided takes it over; the others keep
@@ -59,7 +67,7 @@ impl Control {
     /// Becomes the same as another one in what steps ask for.
     pub(super) fn want_like(&mut self, other: &Control) {
         self.wanted_step = other.wanted_step;
-        self.by_piece.clone_from(&other.by_piece);
+        self.by_piece.copy_from_slice(&other.by_piece);
     }
 
     /// Lengths of the lists.
@@ -79,7 +87,7 @@ impl Control {
     pub(super) fn copy_from(&mut self, other: &Control) {
         self.want_like(other);
         self.elapsed = other.elapsed;
-        self.squares.clone_from(&other.squares);
-        self.peaks.clone_from(&other.peaks);
+        self.squares.copy_from_slice(&other.squares);
+        self.peaks.copy_from_slice(&other.peaks);
     }
 }

@@ -78,6 +78,13 @@ impl Contest {
         })
     }
 
+    /// The same when it goes on for as long again.
+    pub fn ours_going_on(&self, solver: SolverChoice, asked: f64) -> Result<Found, String> {
+        self.by_tolerance(asked, |tolerance| {
+            Ok(ours::run_on(&self.problem, &self.text, solver, tolerance))
+        })
+    }
+
     /// A method with the loosest tolerance of a ladder that reaches the error; words for why none does.
     pub fn by_tolerance(
         &self,

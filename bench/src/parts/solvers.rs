@@ -66,7 +66,8 @@ pub fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// What each method needs to reach an error: ours at a mesh period that fits the times and at one that does not, then others.
+/// What each method needs to reach an error: ours at a mesh period that fits the times and at one that does not, from the start and
+/// when it goes on, then others.
 fn methods(
     contest: &Contest,
     odd: &Contest,
@@ -89,7 +90,15 @@ fn methods(
     };
     vec![
         ("exponential", contest.ours(Exponential, asked)),
+        (
+            "exponential, going on",
+            contest.ours_going_on(Exponential, asked),
+        ),
         ("exponential, 2961.7 rpm", odd.ours(Exponential, asked)),
+        (
+            "exponential, 2961.7 rpm, going on",
+            odd.ours_going_on(Exponential, asked),
+        ),
         ("newmark", contest.ours(Newmark, asked)),
         (
             "RK4, Rust",

@@ -102,22 +102,16 @@ impl Elimination {
         self.blocks
     }
 
-    /// The identity is added to the blocks on the diagonal.
-    #[inline(always)]
-    pub(super) fn add_identity(&self, blocks: &mut [Square]) {
-        for pivot in &self.pivots {
-            for (i, column) in blocks[pivot.own].iter_mut().enumerate() {
-                column[i + 1] += 1.0;
-            }
-        }
-    }
-
     /// Overwrites the right-hand sides with the unknowns, and the blocks. What stands first in every side stays.
     #[inline(always)]
     pub(super) fn solve(&self, blocks: &mut [Square], sides: &mut [Quad]) {
         for pivot in &self.pivots {
-            let inverse = inverse_of(&blocks[pivot.own]);
-            blocks[pivot.own] = inverse;
+            let own = &mut blocks[pivot.own];
+            for (i, column) in own.iter_mut().enumerate() {
+                column[i + 1] += 1.0;
+            }
+            let inverse = inverse_of(own);
+            *own = inverse;
             let side = sides[pivot.coupling];
             for neighbour in &pivot.neighbours {
                 let from_pivot = &blocks[neighbour.from_pivot];
@@ -238,7 +232,6 @@ mod tests {
                 core::array::from_fn(|i| if i == 0 { 0.0 } else { entry(number, j, i) })
             });
         }
-        plan.add_identity(&mut blocks);
         let matrix = blocks.clone();
         let sides: Vec<Quad> = (0..6)
             .map(|one| [9.0, 1.0, one as f64, -0.5 * one as f64])
@@ -246,6 +239,11 @@ mod tests {
         let mut unknowns = sides.clone();
         plan.solve(&mut blocks, &mut unknowns);
         let mut rest = sides;
+        for (rest, unknowns) in rest.iter_mut().zip(&unknowns) {
+            for (rest, unknown) in rest[1..].iter_mut().zip(&unknowns[1..]) {
+                *rest -= unknown;
+            }
+        }
         for (pair, block) in pairs.iter().zip(&matrix) {
             subtract_product(&mut rest[pair.sensor], block, &unknowns[pair.actuator]);
         }

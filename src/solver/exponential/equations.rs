@@ -70,7 +70,6 @@ impl Equations {
             let force = sight.forces[pair.actuator][0];
             subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
         }
-        self.elimination.add_identity(&mut self.blocks);
         self.elimination.solve(&mut self.blocks, &mut sight.forces);
         sight.are_forces_finite()
     }
@@ -97,7 +96,6 @@ impl Equations {
         answers: &mut [Quad],
     ) {
         self.set_up(influences);
-        self.elimination.add_identity(&mut self.blocks);
         let springs = self.elimination.couplings();
         let (changes, present) = (&mut answers[..springs], &present[..springs]);
         for (change, present) in changes.iter_mut().zip(present) {
@@ -121,7 +119,7 @@ impl Equations {
         }
     }
 
-    /// The blocks without the identity. Gives the largest entry of a coupling's own block.
+    /// The blocks. Gives the largest entry of a coupling's own block.
     #[inline(always)]
     fn set_up(&mut self, influences: &Influences) -> f64 {
         let mut feedback = [0.0; 4];

@@ -3,22 +3,25 @@
 /// Breakpoints that need not be met exactly are met on this many parts of the call: so few lengths of steps occur, whatever
 /// the period of the laws.
 const PARTS: f64 = 64.0;
-/// Lengths that differ from the grid by this part of it come from rounding.
-const OFF_GRID: f64 = 1e-4;
 
 /// Equal parts of a call.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grid {
     start: f64,
     width: f64,
+    /// By how much lengths of the grid differ from what they are computed as: times are rounded, and so is the width.
+    rounding: f64,
 }
 
 impl Grid {
     /// From one time to another.
     pub(super) fn over(start: f64, end: f64) -> Grid {
+        let length = canonical(end - start);
+        let of_times = 8.0 * f64::EPSILON * start.abs().max(end.abs());
         Grid {
             start,
-            width: canonical(end - start) / PARTS,
+            width: length / PARTS,
+            rounding: of_times + (end - start - length).abs(),
         }
     }
 
@@ -27,11 +30,12 @@ impl Grid {
         self.start + ((time - self.start) / self.width).round() * self.width
     }
 
-    /// A length without the rounding of the times it was computed from, where it is one of the grid.
+    /// A length without rounding, where it is one of the grid. Any other one is kept as it is: the motion would otherwise fall
+    /// behind time.
     pub(super) fn length(&self, length: f64) -> f64 {
         let parts = (length / self.width).round();
         let exact = parts * self.width;
-        if parts >= 1.0 && (length - exact).abs() <= OFF_GRID * self.width {
+        if parts >= 1.0 && (length - exact).abs() <= self.rounding {
             exact
         } else {
             length
@@ -65,6 +69,9 @@ mod tests {
         let grid = Grid::over(10.0, 10.0 + 2e-5);
         let (one, two) = (grid.near(10.0 + 3.1e-6), grid.near(10.0 + 1.27e-5));
         assert_eq!(grid.length(two - one), 31.0 * grid.width);
-        assert_eq!(grid.length(3.3 * grid.width), 3.3 * grid.width);
+        // A picosecond beside the grid is no rounding.
+        for other in [3.3 * grid.width, 3.0 * grid.width + 1e-12] {
+            assert_eq!(grid.length(other), other);
+        }
     }
 }

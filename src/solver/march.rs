@@ -9,7 +9,7 @@
 //!
 //! Knows no method: what a step is and how good it was, a [`Method`] says.
 
-use super::grid::Grid;
+use super::grid::{Grid, canonical};
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
 /// After so many steps of one call their average length must be at least this [s]: machines vibrate below the GHz, though
@@ -29,6 +29,8 @@ const MOST_INTERRUPTIONS: u32 = 20;
 const MOST_SAID: f64 = 2.0;
 /// A stretch begins with a guess of this part of it.
 const FIRST_STEP: f64 = 1.0 / 16.0;
+/// No step makes up for more than this part of itself, where the motion is ahead of time or behind.
+const MADE_UP: f64 = 1e-3;
 
 /// What stays the same during one call.
 #[derive(Debug)]
@@ -47,7 +49,8 @@ impl<F> Clone for Task<'_, F> {
 
 impl<F> Copy for Task<'_, F> {}
 
-/// One step: from when, to when, how long.
+/// One step: from when, to when, how long. A method steps by the length, which is [`canonical`]; it differs from the time
+/// between by rounding and by what [`super::Control::due`] makes up for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Span {
     pub(super) start: f64,
@@ -62,7 +65,7 @@ impl Span {
         if part == 1.0 {
             self.end
         } else {
-            self.start + part * self.step
+            self.start + part * (self.end - self.start)
         }
     }
 }
@@ -239,6 +242,7 @@ impl March {
     ) -> Result<bool, StepError> {
         let (whole, mut span, mut interruptions) = (span, span, 0);
         self.landing.fill(false);
+        let due = state.control.due(span.step, task.tolerance);
         loop {
             self.check_progress(state.time, span.step)?;
             self.tried += 1;
@@ -253,8 +257,19 @@ impl March {
                     false => Ending::Watched,
                 };
             }
-            match method.try_step(task, state, span, &self.pieces, &mut self.endings)? {
+            let made_up = if due.abs() < MADE_UP * span.step {
+                due
+            } else {
+                0.0
+            };
+            let length = canonical(span.step - made_up);
+            let tried = Span {
+                step: length,
+                ..span
+            };
+            match method.try_step(task, state, tried, &self.pieces, &mut self.endings)? {
                 Outcome::Accepted { ratio } => {
+                    state.control.took(length, span.end - span.start);
                     if self.landing.contains(&true) {
                         for (landing, ending) in self.landing.iter_mut().zip(&self.endings) {
                             *landing &= *ending != Ending::Watched;

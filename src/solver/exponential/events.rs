@@ -195,7 +195,7 @@ impl<F: Forcing> View<'_, F> {
                 // Written so that a NaN ends the piece.
                 if margin < -slack || margin.is_nan() {
                     let root = self.root(sight, between, [place(step - 1), place(step)]);
-                    return Some(self.span.start + root * self.span.step);
+                    return Some(self.span.at(root));
                 }
             }
         }

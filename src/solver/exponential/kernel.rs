@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::super::grid::canonical;
 use super::super::march::{Ending, Method, Outcome, Span, Task};
 use super::super::{Block, Counts, Forcing, Harmonic, Instant, Piece, State, StepError, System};
 use super::coefficients::Coefficients;
@@ -230,7 +229,7 @@ impl Kernel {
             turning: &state.turning,
         });
         let (sight, coefficients) = (&mut self.sight, &self.lengths[index]);
-        let excess = (span.end - span.start) - self.steps[index];
+        let excess = (span.end - span.start) - span.step;
         let harmonics = task.forcing.harmonics();
         state
             .turning
@@ -284,7 +283,7 @@ impl Method for Kernel {
         pieces: &[Piece],
         endings: &mut [Ending],
     ) -> Result<Outcome, StepError> {
-        let index = self.coefficients_for(canonical(span.step));
+        let index = self.coefficients_for(span.step);
         state.turning.find(task.forcing.harmonics(), span.start);
         let straight = task.forcing.is_straight();
         let coefficients = &self.lengths[index];

@@ -2,7 +2,6 @@
 
 use nalgebra::DMatrix;
 
-use super::super::grid::canonical;
 use super::super::march::{Span, Task};
 use super::super::row::Part;
 use super::super::{
@@ -266,7 +265,7 @@ impl Kernel {
 
     /// The operators for this step length, computed unless they are kept from earlier steps.
     fn operators_for(&mut self, system: &System, span: Span) -> Result<usize, StepError> {
-        let h = canonical(span.step);
+        let h = span.step;
         if let Some(index) = self
             .operators
             .iter()
@@ -303,8 +302,7 @@ fn predict(track: &Track, h: f64, work: &mut Work) {
 }
 
 /// Moves a track to the end of the step just computed.
-pub(super) fn accept(track: &mut Track, work: &mut Work, step: f64) {
-    let h = canonical(step);
+pub(super) fn accept(track: &mut Track, work: &mut Work, h: f64) {
     core::mem::swap(&mut track.position, &mut work.predicted_position);
     add_scaled(0.25 * h * h, &work.next_acceleration, &mut track.position);
     core::mem::swap(&mut track.velocity, &mut work.predicted_velocity);

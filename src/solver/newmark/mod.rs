@@ -210,7 +210,7 @@ impl Pair {
                 } else {
                     0.5
                 };
-                let time = span.start + part * span.step;
+                let time = span.at(part);
                 if earliest.is_none_or(|(_, other)| time < other) {
                     earliest = Some((law, time));
                 }
@@ -303,7 +303,7 @@ impl Method for Pair {
         self.counts.steps += 1;
         state.time = span.end;
         // After an event nobody sets it anew.
-        self.next_control.want_like(&state.control);
+        self.next_control.go_on_like(&state.control);
         core::mem::swap(&mut state.control, &mut self.next_control);
         Ok(Outcome::Accepted {
             ratio: if error > 1.0 { ratio.min(0.99) } else { ratio },

@@ -9,6 +9,8 @@
 //!
 //! Knows no method: what a step is and how good it was, a [`Method`] says.
 
+use core::ops::Range;
+
 use super::grid::{Grid, canonical};
 use super::{Counts, Forcing, Instant, Piece, State, StepError, System};
 
@@ -31,6 +33,9 @@ const MOST_SAID: f64 = 2.0;
 const FIRST_STEP: f64 = 1.0 / 16.0;
 /// No step makes up for more than this part of itself, where the motion is ahead of time or behind.
 const MADE_UP: f64 = 1e-3;
+
+/// Pieces hold for sure from a place that lies this part of the way to the next breakpoint behind where it was looked for.
+const FOR_SURE: f64 = 1e-3;
 
 /// What stays the same during one call.
 #[derive(Debug)]
@@ -126,6 +131,8 @@ pub(super) trait Method {
 #[derive(Debug, Clone)]
 pub(super) struct March {
     pieces: Vec<Piece>,
+    /// Where time alone ends pieces: the stretch of time in which those above hold.
+    holding: Range<f64>,
     /// When the piece of each law began because the motion ended the one before [s].
     begun: Vec<f64>,
     /// The laws whose pieces end with the present step.
@@ -142,6 +149,7 @@ impl March {
     pub(super) fn new(system: &System) -> March {
         March {
             pieces: vec![Piece::default(); system.laws],
+            holding: 0.0..0.0,
             begun: vec![f64::NEG_INFINITY; system.laws],
             landing: vec![false; system.laws],
             endings: vec![Ending::Watched; system.laws],
@@ -174,23 +182,48 @@ impl March {
         let grid = Grid::over(state.time, until);
         while state.time < until - rounding {
             self.begun.fill(f64::NEG_INFINITY);
-            let next = task.forcing.next_breakpoint(state.time + slack);
-            let stop = if next < until - slack {
-                let near = grid.near(next);
-                let met = (near - next).abs() <= slack && near > state.time + rounding;
-                if met && near < until { near } else { next }
-            } else {
-                until
-            };
-            let inside = 0.5 * (state.time + stop);
             method.observe(task, state);
-            let start = method.instant(state);
-            task.forcing.enter(start, inside, &mut self.pieces);
+            let stop = if self.holding.start <= state.time && until <= self.holding.end {
+                until
+            } else {
+                self.enter_stretch(method, task, state, (until, rounding, slack), grid)
+            };
             method.begin(task, state, &self.pieces);
             self.cross_smooth_stretch(method, task, state, (stop, grid))?;
         }
         state.time = until;
         Ok(())
+    }
+
+    /// Chooses pieces and gives when the stretch ends: at the next breakpoint or `until`. Breakpoints within `slack` are as good as
+    /// reached.
+    fn enter_stretch<F: Forcing>(
+        &mut self,
+        method: &mut impl Method,
+        task: Task<'_, F>,
+        state: &State,
+        (until, rounding, slack): (f64, f64, f64),
+        grid: Grid,
+    ) -> f64 {
+        let looked_for = state.time + slack;
+        let next = task.forcing.next_breakpoint(looked_for);
+        let stop = if next < until - slack {
+            let near = grid.near(next);
+            let met = (near - next).abs() <= slack && near > state.time + rounding;
+            if met && near < until { near } else { next }
+        } else {
+            until
+        };
+        let inside = 0.5 * (state.time + stop);
+        let start = method.instant(state);
+        task.forcing.enter(start, inside, &mut self.pieces);
+        let sure = inside >= looked_for + FOR_SURE * (next - state.time);
+        self.holding = if sure && task.forcing.is_timed() {
+            inside..next
+        } else {
+            0.0..0.0
+        };
+        stop
     }
 
     /// From the state's time to `stop` with equal steps, replanned when the method asks for it.

@@ -10,7 +10,7 @@ use super::super::march::Span;
 use super::super::{Forcing, Lines, Piece, Spring, System};
 use super::elimination::{Elimination, Square};
 use super::exchange::{Exchange, Influences, Pair};
-use super::lanes::{Quad, add_multiple, subtract_multiple};
+use super::lanes::{Quad, add_multiple, are_finite, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
 use super::polynomials::{CHECK_PLACES, CHECKS, END, NODES, PLACES};
 use super::sight::{Readings, Sight};
@@ -71,7 +71,7 @@ impl Equations {
             subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
         }
         self.elimination.solve(&mut self.blocks, &mut sight.forces);
-        sight.are_forces_finite()
+        are_finite(&sight.forces)
     }
 
     /// The tangents of springs at a node.

@@ -58,6 +58,16 @@ pub(super) fn subtract_multiple(sum: &mut Quad, factor: f64, x: &Quad) {
     }
 }
 
+/// Whether all of them are numbers: zero times anything else is none.
+#[inline(always)]
+pub(super) fn are_finite(quads: &[Quad]) -> bool {
+    let mut zeros = [0.0; 4];
+    for quad in quads {
+        add_multiple(&mut zeros, 0.0, quad);
+    }
+    zeros == [0.0; 4]
+}
+
 /// The sum of all four.
 #[inline(always)]
 pub(super) fn sum([a, b, c, d]: &Quad) -> f64 {

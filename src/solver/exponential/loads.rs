@@ -22,6 +22,8 @@ const ABREAST: usize = 4;
 #[derive(Debug, Clone)]
 struct Share {
     numbers: [usize; ABREAST],
+    /// Whether no share before has the same states.
+    is_first: bool,
     /// The states among those of all parts, in fours, and the same among the entries.
     quads: Range<usize>,
     entries: Range<usize>,
@@ -32,13 +34,14 @@ impl Loads {
         let (mut shares, mut entries) = (Vec::new(), Vec::new());
         for part in parts {
             let quads = part.quads();
-            for loads in part.loads.chunks(ABREAST) {
+            for (chunk, loads) in part.loads.chunks(ABREAST).enumerate() {
                 let first = entries.len();
                 entries.extend((0..quads.len()).map(|quad| {
                     let own = |(_, column): &(usize, Vec<f64>)| column.as_chunks::<4>().0[quad];
                     core::array::from_fn(|i| loads.get(i).map_or([0.0; 4], own))
                 }));
                 shares.push(Share {
+                    is_first: chunk == 0,
                     numbers: core::array::from_fn(|i| loads.get(i).unwrap_or(&loads[0]).0),
                     quads: quads.clone(),
                     entries: first..entries.len(),
@@ -48,7 +51,7 @@ impl Loads {
         Loads { shares, entries }
     }
 
-    /// Overwrites what a value of every load exerts.
+    /// Overwrites what a value of every load exerts; where none acts, nothing is touched.
     #[inline(always)]
     pub(super) fn exert<S: Simd>(
         &self,
@@ -56,12 +59,13 @@ impl Loads {
         value: impl Fn(usize) -> f64,
         target: &mut [Quad],
     ) {
-        target.fill([0.0; 4]);
         for share in &self.shares {
             let factors = share.numbers.map(|number| [value(number); 4]);
             let columns = &self.entries[share.entries.clone()];
             for (target, columns) in target[share.quads.clone()].iter_mut().zip(columns) {
-                add_products(simd, factors.each_ref(), columns.each_ref(), target);
+                let mut sum = if share.is_first { [0.0; 4] } else { *target };
+                add_products(simd, factors.each_ref(), columns.each_ref(), &mut sum);
+                *target = sum;
             }
         }
     }

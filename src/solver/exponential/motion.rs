@@ -84,16 +84,6 @@ impl Motion {
         }
     }
 
-    /// Whether all states are numbers.
-    #[inline(always)]
-    pub(super) fn is_finite(&self) -> bool {
-        let mut zeros = [0.0; 4];
-        for state in &self.states {
-            add_multiple(&mut zeros, 0.0, state);
-        }
-        zeros == [0.0; 4]
-    }
-
     /// B eta + load, some seconds after the start of the call.
     #[inline(always)]
     pub(super) fn differentiate<S: Simd>(&mut self, simd: S, elapsed: f64) {

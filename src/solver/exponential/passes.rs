@@ -19,7 +19,7 @@ use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, Ramp};
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
-use super::lanes::{Quad, add_product, sum};
+use super::lanes::{Quad, add_product, are_finite, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::Panels;
@@ -130,7 +130,7 @@ impl WithSimd for ReadOff<'_> {
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let states = &self.motion.states;
         self.rows.read(states, self.numbers);
-        self.motion.is_finite()
+        are_finite(states)
     }
 }
 

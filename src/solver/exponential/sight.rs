@@ -109,16 +109,6 @@ impl Sight {
         self.forces.iter().all(|forces| forces[0].is_finite())
     }
 
-    /// Whether the forces at all nodes are numbers.
-    #[inline(always)]
-    pub(super) fn are_forces_finite(&self) -> bool {
-        let mut zeros = [0.0; 4];
-        for forces in &self.forces {
-            add_multiple(&mut zeros, 0.0, forces);
-        }
-        zeros == [0.0; 4]
-    }
-
     /// The step ends: the end becomes the start.
     pub(super) fn move_on(&mut self) {
         let [deflections, rates] = &mut self.nodes[0];

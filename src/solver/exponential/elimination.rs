@@ -14,9 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::exchange::Pair;
 use super::lanes::{Quad, add_multiple, subtract_multiple};
+use super::polynomials::NODES;
 
-/// Unknowns of a coupling.
-const UNKNOWN: usize = 3;
+/// Unknowns of a coupling: its forces at all nodes but the first.
+const UNKNOWN: usize = NODES - 1;
 
 /// What the unknowns of one coupling do to another: a column for each. The first number of every column is zero, as is that
 /// of the unknowns: it stands for the start of the step, where nothing is unknown.

@@ -26,7 +26,7 @@ pub(super) struct Equations {
     elimination: Elimination,
     /// The pairs of springs, with their numbers among all pairs.
     pairs: Vec<(usize, Pair)>,
-    /// The lines of all couplings.
+    /// The lines of all springs.
     lines: Vec<Lines<PLACES_OF_LINES>>,
     /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
     blocks: Vec<Square>,
@@ -41,7 +41,7 @@ impl Equations {
         let elimination = Elimination::of(&springs, system.springs);
         Equations {
             pairs,
-            lines: vec![Lines::ZERO; system.couplings.len()],
+            lines: vec![Lines::ZERO; system.springs],
             blocks: vec![Square::default(); elimination.blocks()],
             elimination,
         }

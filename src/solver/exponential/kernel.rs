@@ -149,9 +149,8 @@ impl Kernel {
         for (list, seen) in state.seen.iter_mut().zip(&self.sight.nodes[0]) {
             list.copy_from_slice(seen);
         }
-        for (reading, read) in state.readings.iter_mut().zip(&self.read) {
-            *reading = *read;
-        }
+        let (readings, _) = self.read.split_at(state.readings.len());
+        state.readings.copy_from_slice(readings);
         state.pose.decouple(&self.motion.states, &self.shapes);
         Ok(())
     }

@@ -17,7 +17,7 @@ use super::sight::{Sight, instant};
 
 /// Sweeps after which a step counts as too long.
 const MOST_SWEEPS: usize = 25;
-/// Change of the forces in the last sweep relative to the tolerance, and the smallest one above rounding.
+/// How far answers may be from the forces, relative to the tolerance, and the least that is above rounding.
 const ACCURACY: (f64, f64) = (1e-3, 1e-13);
 
 /// What finds the forces, and how good they are.
@@ -73,7 +73,8 @@ impl Nodes {
         found
     }
 
-    /// All laws as they are, until nothing changes. Gives whether the forces were found; the nodes are shown under them then.
+    /// Any laws: asks them until they answer with the forces that they were asked under. Gives whether these were found; the nodes are
+    /// shown under them then.
     #[inline(always)]
     pub(super) fn sweep<F: Forcing>(
         &mut self,

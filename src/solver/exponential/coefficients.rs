@@ -7,30 +7,31 @@
 //!   f_j(x)   = sum over k of l_jk m_k(x),   m_k(x) = integral of e^(B (x h - s)) (s/h)^k ds b = k! x^(k+1) h phi_(k+1)(B x h) b
 //! ```
 //!
-//! What the couplings see at x follows by the product with their rows. How the lists run, `panel` says.
+//! How couplings move follows by the product with their rows. How the lists run, `panel` says; the four numbers of a quad belong to
+//! [`SEEN_AT`] where nothing else is said.
 
 use nalgebra::Complex;
 
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
-use super::lanes::{Quad, add_multiple, subtract_multiple};
+use super::lanes::{Quad, add_product, subtract_multiple, subtract_product};
 use super::panel::{Panels, Place, entries};
 use super::part::Part;
-use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, PLACES, POWERS};
+use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, POWERS, SEEN_AT};
 use super::scratch::{Scratch, Share};
-use super::sight::{Readings, STILL, both};
+use super::sight::Moved;
 use crate::linalg::{Numbers, PHI_ORDERS, SmallPhi};
 
-/// k! x^(k+1) at the nodes.
+/// k! x^(k+1) where couplings are looked at.
 const MOMENTS: [Quad; POWERS] = {
-    let mut moments = [[0.0; NODES]; POWERS];
-    let (mut k, mut power) = (0, PLACES);
+    let mut moments = [[0.0; 4]; POWERS];
+    let (mut k, mut power) = (0, SEEN_AT);
     while k < POWERS {
-        let mut node = 0;
-        while node < NODES {
-            moments[k][node] = FACTORIAL[k] * power[node];
-            power[node] *= PLACES[node];
-            node += 1;
+        let mut i = 0;
+        while i < 4 {
+            moments[k][i] = FACTORIAL[k] * power[i];
+            power[i] *= SEEN_AT[i];
+            i += 1;
         }
         k += 1;
     }
@@ -45,15 +46,15 @@ pub(super) struct Coefficients {
     /// h^2 phi_2.
     pub(super) ramp_gain: BlockDiagonal,
     /// What sensors read per B eta + load: per look and state.
-    pub(super) free: Vec<Readings>,
+    pub(super) free: Vec<Moved>,
     /// The same per change of the load.
-    pub(super) ramp: Vec<Readings>,
+    pub(super) ramp: Vec<Moved>,
     /// What the end takes from the forces at the nodes, -f_j: per push and quad of states.
     pub(super) pushes: Vec<[Quad; NODES]>,
     /// What it takes from cosine and sine of the angle of a harmonic: per response and quad of states.
     pub(super) responses: Vec<[Quad; 2]>,
     /// What sensors read per cosine and sine of the angle of a harmonic: per look and harmonic.
-    pub(super) turning: Vec<[Readings; 2]>,
+    pub(super) turning: Vec<[Moved; 2]>,
     /// e^(i w h) of every harmonic.
     pub(super) rotations: Vec<Complex<f64>>,
     pub(super) influences: Influences,
@@ -70,11 +71,11 @@ impl Coefficients {
         Coefficients {
             gain: BlockDiagonal::zero(parts),
             ramp_gain: BlockDiagonal::zero(parts),
-            free: vec![STILL; panels.states()],
-            ramp: vec![STILL; panels.states()],
+            free: vec![[0.0; 4]; panels.states()],
+            ramp: vec![[0.0; 4]; panels.states()],
             pushes: vec![[[0.0; 4]; NODES]; entries(&panels.pushes)],
             responses: vec![[[0.0; 4]; 2]; entries(&panels.responses)],
-            turning: vec![[STILL; 2]; panels.turns.len()],
+            turning: vec![[[0.0; 4]; 2]; panels.turns.len()],
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
@@ -88,7 +89,7 @@ impl Coefficients {
 
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
-        let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Readings>();
+        let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Moved>();
         let columns = 4 * NODES * self.pushes.len() + 8 * self.responses.len();
         let numbers = columns + 2 * self.rotations.len();
         let matrices = self.gain.bytes() + self.ramp_gain.bytes();
@@ -125,22 +126,22 @@ impl Coefficients {
             add_influences(part, number, (exchange, &mut self.influences), scratch);
             self.compute_turning(part, place, scratch);
         }
+        self.influences.complete(h);
     }
 
     /// The responses and moments of a group at all nodes.
     #[inline(always)]
     fn follow(&mut self, share: Share<'_>, frequencies: &[f64], scratch: &mut Scratch) {
         let matrix = &share.group.matrix;
-        let mut times = PLACES.map(|x| x * share.h);
-        times[0] = times[1]; // any: at the start nothing has happened
+        let times = SEEN_AT.map(|x| x * share.h);
         if let Some(small) = SmallPhi::of(matrix, times, &mut scratch.phi) {
             self.follow_lines(share, &small.phi, &mut scratch.moments);
             scratch.respond_small(share, frequencies, &small);
             return;
         }
-        for (node, place) in PLACES.into_iter().enumerate().skip(1) {
-            scratch.phi.evaluate(matrix, place * share.h);
-            self.follow_block(share, node, scratch);
+        for (place, x) in SEEN_AT.into_iter().enumerate() {
+            scratch.phi.evaluate(matrix, x * share.h);
+            self.follow_block(share, place, scratch);
         }
         for number in 0..share.part.harmonics.len() {
             scratch.respond(share, frequencies, number);
@@ -152,7 +153,7 @@ impl Coefficients {
     fn follow_lines(
         &mut self,
         share: Share<'_>,
-        phi: &[Numbers<NODES>; PHI_ORDERS],
+        phi: &[Numbers<4>; PHI_ORDERS],
         moments: &mut [[Quad; POWERS]],
     ) {
         let Share {
@@ -162,7 +163,7 @@ impl Coefficients {
             h,
         } = share;
         let (states, own) = (part.len(), group.first..group.first + group.matrix.nrows());
-        let times = PLACES.map(|x| x * h);
+        let times = SEEN_AT.map(|x| x * h);
         let squares = times.map(|time| time * time);
         let responses = [
             (times, phi[1], &mut self.gain, &mut self.free),
@@ -173,14 +174,10 @@ impl Coefficients {
             gain.set_line(part, group, level[END], slope[END]);
             for sensor in 0..part.sensors.len() {
                 for state in own.clone() {
-                    let readings = &mut seen[place.states(sensor) + state];
+                    let seen = &mut seen[place.states(sensor) + state];
                     let state = sensor * states + state;
-                    let both = part.sensor_rows[state]
-                        .iter()
-                        .zip(part.sensor_slopes[state]);
-                    for (readings, (row, along)) in readings.iter_mut().zip(both) {
-                        *readings = combination(*row, &level, along, &slope);
-                    }
+                    let (rows, along) = (&part.sensor_rows[state], &part.sensor_slopes[state]);
+                    *seen = combination(rows, &level, along, &slope);
                 }
             }
         }
@@ -192,14 +189,14 @@ impl Coefficients {
             for state in own.clone().map(|state| actuator * states + state) {
                 let (column, along) = (columns[state], slopes[state]);
                 for (moment, [level, slope]) in moments[state].iter_mut().zip(&phi) {
-                    *moment = combination(column, level, along, slope);
+                    *moment = combination(&[column; 4], level, &[along; 4], slope);
                 }
             }
         }
     }
 
-    /// Responses and moments of a larger group at a node.
-    fn follow_block(&mut self, share: Share<'_>, node: usize, scratch: &mut Scratch) {
+    /// Responses and moments of a larger group at one of the places.
+    fn follow_block(&mut self, share: Share<'_>, at: usize, scratch: &mut Scratch) {
         let Share {
             part,
             group,
@@ -207,35 +204,34 @@ impl Coefficients {
             h,
         } = share;
         let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
-        let time = PLACES[node] * h;
+        let time = SEEN_AT[at] * h;
         let responses = [
             (time, 1, &mut self.gain, &mut self.free),
             (time * time, 2, &mut self.ramp_gain, &mut self.ramp),
         ];
         for (factor, k, gain, seen) in responses {
             let phi = scratch.phi.get(k);
-            if node == END {
+            if at == END {
                 gain.set(part, group, factor, phi);
             }
             for sensor in 0..part.sensors.len() {
                 let rows = &part.sensor_rows[sensor * states + first..][..m];
                 let own = &mut seen[place.states(sensor) + first..][..m];
-                for (readings, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
-                    let [deflection, rate] = both(rows, phi);
-                    readings[0][node] = factor * deflection;
-                    readings[1][node] = factor * rate;
+                for (seen, phi) in own.iter_mut().zip(phi.chunks_exact(m)) {
+                    let terms = rows.iter().zip(phi).map(|(row, phi)| row[at] * phi);
+                    seen[at] = factor * terms.sum::<f64>();
                 }
             }
         }
         for (k, moments) in MOMENTS.iter().enumerate() {
-            let factor = moments[node] * h;
+            let factor = moments[at] * h;
             let phi = scratch.phi.get(k + 1);
             for (actuator, column) in part.actuator_columns.column_iter().enumerate() {
                 let own = &column.as_slice()[first..first + m];
                 let moments = &mut scratch.moments[actuator * states + first..][..m];
                 for (i, moment) in moments.iter_mut().enumerate() {
                     let terms = own.iter().enumerate().map(|(j, own)| phi[i + j * m] * own);
-                    moment[k][node] = factor * terms.sum::<f64>();
+                    moment[k][at] = factor * terms.sum::<f64>();
                 }
             }
         }
@@ -285,12 +281,10 @@ impl Coefficients {
         let responses = scratch.responses.chunks_exact(states.max(1));
         for (number, response) in responses.take(part.harmonics.len()).enumerate() {
             for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
-                let (mut cosine, mut sine) = (STILL, STILL);
+                let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
                 for ([re, im], row) in response.iter().zip(rows) {
-                    for (what, row) in row.iter().enumerate() {
-                        add_multiple(&mut cosine[what], *row, re);
-                        subtract_multiple(&mut sine[what], *row, im);
-                    }
+                    add_product(&mut cosine, row, re);
+                    subtract_product(&mut sine, row, im);
                 }
                 self.turning[place.turns(sensor) + number] = [cosine, sine];
             }
@@ -310,43 +304,32 @@ fn add_influences(
     let moments = scratch.moments.chunks_exact(states.max(1));
     for (actuator, moments) in moments.take(part.actuators.len()).enumerate() {
         for (sensor, rows) in part.sensor_rows.chunks_exact(states).enumerate() {
-            let seen = [read(rows, moments, 0), read(rows, moments, 1)];
             let entry = (number, actuator * part.sensors.len() + sensor);
-            influences.add(exchange, entry, &seen);
+            influences.add(exchange, entry, &read(rows, moments));
         }
     }
 }
 
-/// What a sensor reads of moments: deflections (0) or rates (1).
+/// How a sensor moves with moments.
 #[inline(always)]
-fn read(rows: &[[f64; 2]], moments: &[[Quad; POWERS]], what: usize) -> [Quad; POWERS] {
+fn read(rows: &[Quad], moments: &[[Quad; POWERS]]) -> [Quad; POWERS] {
     let mut seen = [[0.0; 4]; POWERS];
     for (row, moment) in rows.iter().zip(moments) {
         for (seen, moment) in seen.iter_mut().zip(moment) {
-            add_multiple(seen, row[what], moment);
+            add_product(seen, row, moment);
         }
     }
     seen
 }
 
-/// A function, level and slope along S, times factors at the nodes, of which that at the start is zero.
+/// A function, level and slope along S, times factors.
 #[inline(always)]
-fn parts_of(phi: &Numbers<NODES>, factors: &Quad) -> [Quad; 2] {
-    [&phi.re, &phi.im].map(|part| {
-        let mut product = times_each(part, factors);
-        product[0] = 0.0; // also where the function is infinite
-        product
-    })
+fn parts_of(phi: &Numbers<4>, factors: &Quad) -> [Quad; 2] {
+    [&phi.re, &phi.im].map(|part| core::array::from_fn(|i| part[i] * factors[i]))
 }
 
-/// Element by element.
+/// a x + b y, element by element.
 #[inline(always)]
-fn times_each(one: &Quad, two: &Quad) -> Quad {
-    core::array::from_fn(|i| one[i] * two[i])
-}
-
-/// a x + b y.
-#[inline(always)]
-fn combination(a: f64, x: &Quad, b: f64, y: &Quad) -> Quad {
-    core::array::from_fn(|i| a * x[i] + b * y[i])
+fn combination(a: &Quad, x: &Quad, b: &Quad, y: &Quad) -> Quad {
+    core::array::from_fn(|i| a[i] * x[i] + b[i] * y[i])
 }

@@ -12,8 +12,8 @@ use super::elimination::{Elimination, Square};
 use super::exchange::{Exchange, Influences, Pair};
 use super::lanes::{Quad, add_multiple, are_finite, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
-use super::polynomials::{CHECK_PLACES, CHECKS, END, NODES, PLACES};
-use super::sight::{Readings, Sight};
+use super::polynomials::{CHECK_PLACES, CHECKS, END, HERMITE_SLOPES, NODES, PLACES};
+use super::sight::{Moved, Sight, rates_at_nodes};
 
 /// The most that the forces of a coupling may do to themselves within a step: beyond, they answer to rounding.
 const MOST_FEEDBACK: f64 = 4.0;
@@ -24,8 +24,7 @@ const PLACES_OF_LINES: usize = NODES + CHECKS;
 #[derive(Debug, Clone)]
 pub(super) struct Equations {
     elimination: Elimination,
-    /// The pairs of springs, with their numbers among all pairs.
-    pairs: Vec<(usize, Pair)>,
+    pairs: Vec<Pair>,
     /// The lines of all springs.
     lines: Vec<Lines<PLACES_OF_LINES>>,
     /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
@@ -34,13 +33,10 @@ pub(super) struct Equations {
 
 impl Equations {
     pub(super) fn new(system: &System, exchange: &Exchange) -> Equations {
-        let are_springs = |pair: &Pair| pair.sensor.max(pair.actuator) < system.springs;
-        let numbered = exchange.pairs.iter().copied().enumerate();
-        let pairs: Vec<(usize, Pair)> = numbered.filter(|(_, pair)| are_springs(pair)).collect();
-        let springs: Vec<Pair> = pairs.iter().map(|&(_, pair)| pair).collect();
-        let elimination = Elimination::of(&springs, system.springs);
+        let pairs = exchange.of_springs();
+        let elimination = Elimination::of(pairs, system.springs);
         Equations {
-            pairs,
+            pairs: pairs.to_vec(),
             lines: vec![Lines::ZERO; system.springs],
             blocks: vec![Square::default(); elimination.blocks()],
             elimination,
@@ -59,14 +55,13 @@ impl Equations {
 
     /// Solves for the forces at the nodes; all couplings are springs. Gives whether they were found.
     #[inline(always)]
-    pub(super) fn solve(&mut self, influences: &Influences, sight: &mut Sight) -> bool {
-        self.let_go(sight);
+    pub(super) fn solve(&mut self, influences: &Influences, step: f64, sight: &mut Sight) -> bool {
+        self.let_go(step, sight);
         if self.set_up(influences) > MOST_FEEDBACK {
             return false;
         }
-        for (number, pair) in &self.pairs {
-            let [known, ..] = &influences.of_pairs[*number];
-            let push = push(&self.lines[pair.sensor], known);
+        for (pair, ([known, ..], [rates, ..])) in self.pairs.iter().zip(influences.of_springs()) {
+            let push = push(&self.lines[pair.sensor], known, rates);
             let force = sight.forces[pair.actuator][0];
             subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
         }
@@ -109,13 +104,15 @@ impl Equations {
 
     /// The forces at all nodes if nothing answered to them; those at the start are right.
     #[inline(always)]
-    fn let_go(&self, sight: &mut Sight) {
+    fn let_go(&self, step: f64, sight: &mut Sight) {
+        let per_step = 1.0 / step;
         for (coupling, lines) in self.lines.iter().enumerate() {
-            let start = sight.start(coupling);
+            let [deflection, rate] = sight.start(coupling);
             let free = &sight.free[coupling];
-            let seen = [0, 1].map(|what| free[what].map(|moved| start[what] + moved));
-            let (push, rest) = (push(lines, &seen), &lines.rest);
-            sight.forces[coupling] = core::array::from_fn(|node| push[node] + rest[node]);
+            let mut rates = rates_at_nodes(free, per_step);
+            add_multiple(&mut rates, rate, &HERMITE_SLOPES.of_common_slope);
+            let moved = push(lines, free, &rates);
+            sight.forces[coupling] = core::array::from_fn(|node| lines.at(node, deflection, rate) + moved[node]);
         }
     }
 
@@ -124,10 +121,10 @@ impl Equations {
     fn set_up(&mut self, influences: &Influences) -> f64 {
         let mut feedback = [0.0; 4];
         let (blocks, filling) = self.blocks.split_at_mut(self.pairs.len());
-        for ((number, pair), block) in self.pairs.iter().zip(blocks) {
+        let all = self.pairs.iter().zip(influences.of_springs()).zip(blocks);
+        for ((pair, ([_, moved @ ..], [_, rates @ ..])), block) in all {
             let lines = &self.lines[pair.sensor];
-            let [_, unknown @ ..] = &influences.of_pairs[*number];
-            *block = unknown.each_ref().map(|moved| push(lines, moved));
+            *block = core::array::from_fn(|node| push(lines, &moved[node], &rates[node]));
             if pair.actuator == pair.sensor {
                 for column in &*block {
                     for (most, one) in feedback.iter_mut().zip(column) {
@@ -164,8 +161,9 @@ impl Equations {
     }
 }
 
-/// What lines without their rest make of deflections and rates at the nodes.
+/// What lines make of a movement at the nodes but the first; `rates` are its rates at the nodes.
 #[inline(always)]
-fn push(lines: &Lines<PLACES_OF_LINES>, [deflections, rates]: &Readings) -> Quad {
-    core::array::from_fn(|i| lines.stiffness[i] * deflections[i] + lines.damping[i] * rates[i])
+fn push(lines: &Lines<PLACES_OF_LINES>, moved: &Moved, rates: &Quad) -> Quad {
+    let [_, a, b, end] = core::array::from_fn(|i| lines.stiffness[i] * moved[i] + lines.damping[i] * rates[i]);
+    [0.0, a, b, end]
 }

@@ -69,7 +69,7 @@ pub(super) struct Kernel {
 impl Kernel {
     pub(super) fn new(system: &System, harmonics: &[Harmonic]) -> Kernel {
         let parts = take_apart(system, &system.blocks, harmonics);
-        let exchange = Exchange::between(&parts);
+        let exchange = Exchange::between(&parts, system.springs);
         let panels = Panels::of(&parts);
         let unused = Coefficients::unused(&parts, &panels, &exchange, harmonics.len());
         let affordable = (MEMORY / unused.bytes().max(1)).clamp(4, LENGTHS);
@@ -324,7 +324,7 @@ impl Method for Kernel {
             Sighting::Clear
         } else {
             if straight {
-                self.sight.show();
+                self.sight.show(span.step);
             }
             self.sight_events(task, &state.slow, span, pieces, endings)
         };

@@ -21,6 +21,14 @@ pub(super) fn add_product(sum: &mut Quad, x: &Quad, y: &Quad) {
     }
 }
 
+/// sum -= x y.
+#[inline(always)]
+pub(super) fn subtract_product(sum: &mut Quad, x: &Quad, y: &Quad) {
+    for ((sum, x), y) in sum.iter_mut().zip(x).zip(y) {
+        *sum -= x * y;
+    }
+}
+
 /// sum += x_1 y_1 + x_2 y_2 ..., in words of the CPU. For loops over many quads: left to itself, the compiler runs over four of them
 /// at a time and turns them around.
 #[inline(always)]
@@ -53,9 +61,7 @@ pub(super) fn add_multiple(sum: &mut Quad, factor: f64, x: &Quad) {
 /// sum -= factor x.
 #[inline(always)]
 pub(super) fn subtract_multiple(sum: &mut Quad, factor: f64, x: &Quad) {
-    for (sum, x) in sum.iter_mut().zip(x) {
-        *sum -= factor * x;
-    }
+    subtract_product(sum, &[factor; 4], x);
 }
 
 /// Whether all of them are numbers: zero times anything else is none.

@@ -63,7 +63,7 @@ impl Nodes {
         step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let found = self.equations.solve(influences, sight);
+        let found = self.equations.solve(influences, step, sight);
         if found {
             sight.exert(exchange, influences);
             self.equations.compare(step, sight, &mut self.missing);
@@ -91,7 +91,7 @@ impl Nodes {
         }
         for _ in 0..MOST_SWEEPS {
             sight.exert(exchange, influences);
-            sight.show();
+            sight.show(span.step);
             self.ask(task, (span, slow), pieces, sight);
             if self.is_settled(accuracy, sight) {
                 return true;

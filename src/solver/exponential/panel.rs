@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use super::lanes::Quad;
 use super::part::Part;
+use super::polynomials::{END, RATE};
 
 /// Everything that touches the states of all parts.
 #[derive(Debug, Clone, Default)]
@@ -120,7 +121,7 @@ impl Panels {
             for part in parts {
                 let rows = &part.sensor_rows[sensor * part.len()..][..part.len()];
                 let quads = rows.as_chunks::<4>().0.iter();
-                let turned = quads.map(|rows| [0, 1].map(|what| rows.map(|row| row[what])));
+                let turned = quads.map(|rows| [END, RATE].map(|seen| rows.map(|row| row[seen])));
                 self.rows.extend(turned);
             }
             self.turns.extend_from_slice(&harmonics);

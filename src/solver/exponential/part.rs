@@ -12,7 +12,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::super::{Block, Harmonic, System};
 use super::block_diagonal::rank;
-use super::lanes::padded;
+use super::lanes::{Quad, padded};
 use crate::linalg::{Decoupling, Group, decouple};
 
 /// Softer coordinates than this [rad^2/s^2] are scaled like it.
@@ -36,10 +36,10 @@ pub(super) struct Part {
     pub(super) paired: usize,
     /// The couplings whose rows look at the block.
     pub(super) sensors: Vec<usize>,
-    /// Their deflections and rates per eta: for every sensor len of both.
-    pub(super) sensor_rows: Vec<[f64; 2]>,
+    /// What the four numbers that a step computes of them (`polynomials::SEEN_AT`) take from eta: for every sensor len of them.
+    pub(super) sensor_rows: Vec<Quad>,
     /// The same times S.
-    pub(super) sensor_slopes: Vec<[f64; 2]>,
+    pub(super) sensor_slopes: Vec<Quad>,
     /// The couplings whose forces act on the block.
     pub(super) actuators: Vec<usize>,
     /// V^-1 [0; b] of these, len x actuators.
@@ -81,7 +81,7 @@ impl Part {
         let rates = shapes.rows(n, n).transpose() * &rows;
         let both = |deflections: &DMatrix<f64>, rates: &DMatrix<f64>| {
             let both = deflections.iter().zip(rates.iter());
-            both.map(|(d, v)| [*d, *v]).collect()
+            both.map(|(d, v)| [*v, *d, *d, *d]).collect()
         };
         let slopes = slopes(&groups, shapes.ncols());
         let (actuators, columns) =

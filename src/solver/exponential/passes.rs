@@ -19,14 +19,14 @@ use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, Ramp};
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
-use super::lanes::{Quad, add_product, are_finite, sum};
+use super::lanes::{Quad, add_multiple, add_product, are_finite, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::Panels;
 use super::part::Part;
 use super::rows::Rows;
 use super::scratch::Scratch;
-use super::sight::{STILL, Sight, accumulate, accumulate_all};
+use super::sight::{Sight, accumulate};
 use super::turning::Turning;
 
 /// The coefficients of a step length.
@@ -161,21 +161,21 @@ impl LookAhead<'_> {
     fn look<S: Simd>(&mut self, simd: S) {
         let (motion, sight) = (&mut *self.motion, &mut *self.sight);
         motion.differentiate(simd, self.elapsed);
-        sight.free.fill(STILL);
+        sight.free.fill([0.0; 4]);
         let (panels, coefficients) = (self.panels, self.coefficients);
         for look in &panels.looks {
             let (quads, states, turns) = (&look.quads, &look.states, &look.turns);
             let mut seen = sight.free[look.coupling];
             let derivative = &motion.derivative[quads.clone()];
-            accumulate_all(&mut seen, &coefficients.free[states.clone()], derivative);
+            accumulate(&mut seen, &coefficients.free[states.clone()], derivative);
             if motion.ramps {
                 let load_rate = &motion.load_rate[quads.clone()];
-                accumulate_all(&mut seen, &coefficients.ramp[states.clone()], load_rate);
+                accumulate(&mut seen, &coefficients.ramp[states.clone()], load_rate);
             }
             let turning = &coefficients.turning[turns.clone()];
             for (&harmonic, both) in panels.turns[turns.clone()].iter().zip(turning) {
                 for (part, per_part) in self.turning.angles[harmonic].iter().zip(both) {
-                    accumulate(&mut seen, *part, per_part);
+                    add_multiple(&mut seen, *part, per_part);
                 }
             }
             sight.free[look.coupling] = seen;

@@ -2,8 +2,12 @@
 //!
 //! A force is a cubic through four Lobatto nodes. At two further places, near both ends, it is compared with the force that the
 //! law gives there; the quintic through all six places says what the cubic leaves out. Two places, because forces that pass
-//! from one level to another are odd about the middle of the step. What the couplings see there is interpolated from deflections
-//! and rates at the nodes: eight numbers, so that the motion is known far better than the cubic knows the force.
+//! from one level to another are odd about the middle of the step.
+//!
+//! Of the motion of a coupling a step computes its deflections at the nodes and its rate at the end; with those of the start
+//! they are a quintic, which says what the rates at the inner nodes are, and where the coupling is at the places for comparison.
+//! That is two orders better than the cubic knows the force, and the errors of the two rates are opposite: the method
+//! keeps its order of six.
 
 use super::lanes::Quad;
 
@@ -18,6 +22,10 @@ pub(super) const END: usize = NODES - 1;
 /// Places for comparison: a/2 and 1 - a/2.
 pub(super) const CHECKS: usize = 2;
 pub(super) const CHECK_PLACES: [f64; CHECKS] = [0.5 * INNER, 1.0 - 0.5 * INNER];
+/// When a coupling has the four numbers that a step computes: its rate at the end, its deflections at the nodes but the first.
+pub(super) const SEEN_AT: Quad = [1.0, INNER, 1.0 - INNER, 1.0];
+/// The rate at the end among these.
+pub(super) const RATE: usize = 0;
 /// l_jk: coefficients of the Lagrange polynomials on the nodes 0, a, b, 1 (a + b = 1, a b = 1/5).
 pub(super) const LAGRANGE: [[f64; NODES]; NODES] = [
     [1.0, -6.0, 10.0, -5.0],
@@ -42,67 +50,41 @@ pub(super) const LAGRANGE_AT_CHECKS: [[f64; CHECKS]; NODES] = [
     [-0.184_016_994_374_947_42, 0.779_508_497_187_473_7],
     [0.055_901_699_437_494_74, 0.348_606_797_749_979],
 ];
-/// Polynomials of degree seven from values and slopes at the nodes, at the places for comparison.
+/// Polynomials of degree five from values at the nodes and slopes at both ends, at the places for comparison.
 pub(super) const HERMITE_AT_CHECKS: Hermite = Hermite {
     of_values: [
-        [
-            0.323_061_621_135_924_7,
-            0.035_442_627_457_812_1,
-            -5.070_515_495_046_595,
-            0.158_586_471_203_089_5,
-        ],
-        [
-            0.607_633_497_187_473_7,
-            0.033_862_254_218_789_43,
-            5.307_686_604_609_184,
-            0.078_584_638_359_499_87,
-        ],
-        [
-            0.033_862_254_218_789_43,
-            0.607_633_497_187_473_7,
-            -0.078_584_638_359_499_87,
-            -5.307_686_604_609_184,
-        ],
-        [
-            0.035_442_627_457_812_1,
-            0.323_061_621_135_924_7,
-            -0.158_586_471_203_089_5,
-            5.070_515_495_046_595,
-        ],
+        [0.591_059_863_407_774_3, 0.054_330_006_670_304_745, -4.555_267_910_796_742, -0.246_250_916_421_794_83],
+        [0.464_190_686_445_302_64, -0.109_580_556_523_381_64, 4.847_644_118_671_816, 0.538_627_124_296_868_4],
+        [-0.109_580_556_523_381_64, 0.464_190_686_445_302_64, -0.538_627_124_296_868_4, -4.847_644_118_671_816],
+        [0.054_330_006_670_304_745, 0.591_059_863_407_774_3, 0.246_250_916_421_794_83, 4.555_267_910_796_742],
     ],
     of_slopes: [
-        [
-            0.016_794_576_808_202_5,
-            0.002_693_135_621_484_342,
-            -0.217_879_248_593_736_86,
-            0.012_325_849_718_747_37,
-        ],
-        [
-            -0.083_972_884_041_012_5,
-            0.019_823_308_900_386_19,
-            -0.125_870_751_406_263_14,
-            0.079_866_502_812_526_29,
-        ],
-        [
-            -0.019_823_308_900_386_19,
-            0.083_972_884_041_012_5,
-            0.079_866_502_812_526_29,
-            -0.125_870_751_406_263_14,
-        ],
-        [
-            -0.002_693_135_621_484_342,
-            -0.016_794_576_808_202_5,
-            0.012_325_849_718_747_37,
-            -0.217_879_248_593_736_86,
-        ],
+        [0.041_518_477_176_559_48, 0.006_657_797_401_561_58, -0.167_274_575_140_626_3, -0.029_077_974_015_615_8],
+        [-0.006_657_797_401_561_58, -0.041_518_477_176_559_48, -0.029_077_974_015_615_8, -0.167_274_575_140_626_3],
     ],
 };
+/// The slopes of the same polynomials at all nodes.
+pub(super) const HERMITE_SLOPES: HermiteSlopes = HermiteSlopes {
+    of_inner_values: [0.0, SQRT_5, -SQRT_5, 0.0],
+    of_last_value: [0.0, 1.2 - SQRT_5, 1.2 + SQRT_5, 0.0],
+    of_common_slope: [0.0, -1.2, -1.2, 0.0],
+    of_more_slope: [0.0, 0.1 * (SQRT_5 - 1.0), -0.1 * (SQRT_5 + 1.0), 1.0],
+};
 
-/// What a polynomial's values and slopes at the places for comparison take from its values and from its slopes at the nodes: for
-/// every node the value at either place, then the slope at either.
+/// What a polynomial's values and slopes at the places for comparison take from its values at the nodes and from its slopes at
+/// both ends: the value at either place, then the slope at either.
 pub(super) struct Hermite {
     pub(super) of_values: [Quad; NODES],
-    pub(super) of_slopes: [Quad; NODES],
+    pub(super) of_slopes: [Quad; 2],
+}
+
+/// What the growth of a polynomial's slope from the first node to every other one takes from the growth of its value
+/// to either inner node and to the last, from its first slope, and from the growth of its slope to the last node.
+pub(super) struct HermiteSlopes {
+    pub(super) of_inner_values: Quad,
+    pub(super) of_last_value: Quad,
+    pub(super) of_common_slope: Quad,
+    pub(super) of_more_slope: Quad,
 }
 
 /// Powers of s/h in use.
@@ -162,25 +144,33 @@ mod tests {
     }
 
     #[test]
-    fn interpolation_at_the_checks_is_exact_for_polynomials_of_degree_seven() {
-        let nodes = PLACES;
-        let polynomial = [0.7, -1.0, 0.5, 2.0, -3.0, 1.5, 0.3, -0.8];
-        let slope: Vec<f64> = (1..8).map(|k| k as f64 * polynomial[k]).collect();
+    fn interpolation_is_exact_for_polynomials_of_degree_five() {
+        let polynomial = [0.7, -1.0, 0.5, 2.0, -3.0, 1.5];
+        let slope: Vec<f64> = (1..6).map(|k| k as f64 * polynomial[k]).collect();
+        let values = PLACES.map(|x| value(&polynomial, x));
+        let slopes = PLACES.map(|x| value(&slope, x));
         let Hermite {
             of_values,
             of_slopes,
         } = HERMITE_AT_CHECKS;
         let from = |lane: usize| -> f64 {
-            let weights = of_values.iter().zip(&of_slopes);
-            let terms = nodes.iter().zip(weights);
-            terms
-                .map(|(&x, (v, s))| v[lane] * value(&polynomial, x) + s[lane] * value(&slope, x))
-                .sum()
+            let of_values = of_values.iter().zip(values);
+            let of_slopes = of_slopes.iter().zip([slopes[0], slopes[END]]);
+            of_values.chain(of_slopes).map(|(w, x)| w[lane] * x).sum()
         };
         for (check, place) in CHECK_PLACES.into_iter().enumerate() {
             // 1e-13: rounding of weights up to 5.
             assert!((from(check) - value(&polynomial, place)).abs() < 1e-13);
             assert!((from(CHECKS + check) - value(&slope, place)).abs() < 1e-13);
+        }
+        let growth = |list: Quad, node: usize| list[node] - list[0];
+        for node in 0..NODES {
+            let found = HERMITE_SLOPES.of_inner_values[node]
+                * (growth(values, 1) + growth(values, 2))
+                + HERMITE_SLOPES.of_last_value[node] * growth(values, END)
+                + HERMITE_SLOPES.of_common_slope[node] * slopes[0]
+                + HERMITE_SLOPES.of_more_slope[node] * growth(slopes, END);
+            assert!((found - growth(slopes, node)).abs() < 1e-13, "{node}");
         }
     }
 }

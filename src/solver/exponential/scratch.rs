@@ -1,25 +1,25 @@
-//! Room for computing coefficients: what one part does by itself at the nodes of a step.
+//! Room for computing coefficients: what one part does by itself where it is looked at (`polynomials::SEEN_AT`).
 
 use nalgebra::Complex;
 
 use super::lanes::Quad;
 use super::panel::Place;
 use super::part::Part;
-use super::polynomials::{NODES, PLACES, POWERS};
+use super::polynomials::{POWERS, SEEN_AT};
 use crate::linalg::{Group, Numbers, PhiFunctions, SmallPhi};
 
 /// Room for computing coefficients.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
     pub(super) phi: PhiFunctions,
-    /// m_k of every actuator at the nodes, len each.
+    /// m_k of every actuator, len each.
     pub(super) moments: Vec<[Quad; POWERS]>,
     /// Real and imaginary part of the response to every harmonic of a part at the nodes, len each.
     pub(super) responses: Vec<[Quad; 2]>,
     /// The same of one group at one node.
     response: Vec<Complex<f64>>,
     /// e^(i w x h) of all harmonics at the nodes.
-    pub(super) turned: Vec<Numbers<NODES>>,
+    pub(super) turned: Vec<Numbers<4>>,
 }
 
 /// One group of a part in a step.
@@ -56,7 +56,7 @@ impl Scratch {
     /// Turns the harmonics to the nodes.
     pub(super) fn turn(&mut self, frequencies: &[f64], h: f64) {
         for (turned, frequency) in self.turned.iter_mut().zip(frequencies) {
-            for (i, x) in PLACES.into_iter().enumerate() {
+            for (i, x) in SEEN_AT.into_iter().enumerate() {
                 (turned.im[i], turned.re[i]) = libm::sincos(frequency * x * h);
             }
         }
@@ -74,7 +74,7 @@ impl Scratch {
         &mut self,
         share: Share<'_>,
         frequencies: &[f64],
-        small: &SmallPhi<NODES>,
+        small: &SmallPhi<4>,
     ) {
         let Share { part, group, .. } = share;
         let m = group.matrix.nrows();
@@ -88,8 +88,6 @@ impl Scratch {
             let targets = &mut self.responses[number * part.len() + group.first..];
             for (target, Numbers { re, im }) in targets.iter_mut().zip(responses) {
                 *target = [re, im];
-                // At the start nothing has happened.
-                (target[0][0], target[1][0]) = (0.0, 0.0);
             }
         }
     }
@@ -100,14 +98,14 @@ impl Scratch {
         let m = group.matrix.nrows();
         let (harmonic, load) = &part.harmonics[number];
         let load = &load[group.first..][..m];
-        for node in 1..NODES {
-            let block = (&group.matrix, PLACES[node] * h);
+        for (at, x) in SEEN_AT.into_iter().enumerate() {
+            let block = (&group.matrix, x * h);
             let response = &mut self.response[..m];
             self.phi
                 .oscillator_response(block, frequencies[*harmonic], load, response);
             let targets = &mut self.responses[number * part.len() + group.first..][..m];
             for ([re, im], response) in targets.iter_mut().zip(response) {
-                (re[node], im[node]) = (response.re, response.im);
+                (re[at], im[at]) = (response.re, response.im);
             }
         }
     }

@@ -2,21 +2,21 @@
 
 use super::super::{Instant, Monitor};
 use super::exchange::{Exchange, Influences};
-use super::lanes::{Quad, add_multiple};
-use super::polynomials::{CHECKS, END, HERMITE_AT_CHECKS, Hermite, NODES};
+use super::lanes::{Quad, add_multiple, subtract_multiple};
+use super::polynomials::{
+    CHECKS, END, HERMITE_AT_CHECKS, HERMITE_SLOPES, Hermite, HermiteSlopes, NODES, RATE,
+};
 
-/// How far the deflection of one coupling has moved from the start at every node of a step, then its rate.
-pub(super) type Readings = [Quad; 2];
-/// Nothing has moved.
-pub(super) const STILL: Readings = [[0.0; 4]; 2];
+/// How far one coupling has moved since the start of a step: its rate at the end, then its deflections at the nodes but the first.
+pub(super) type Moved = Quad;
 
 /// One entry per coupling in every list.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
     /// Movements without the forces.
-    pub(super) free: Vec<Readings>,
+    pub(super) free: Vec<Moved>,
     /// Movements.
-    moved: Vec<Readings>,
+    moved: Vec<Moved>,
     /// Deflections and rates at the nodes, as laws look at them: the start is known, the others when they are shown.
     pub(super) nodes: [[Vec<f64>; 2]; NODES],
     /// Deflections and rates elsewhere.
@@ -32,10 +32,10 @@ pub(super) struct Sight {
 impl Sight {
     pub(super) fn new(couplings: usize) -> Sight {
         let pair = || [vec![0.0; couplings], vec![0.0; couplings]];
-        let readings = vec![STILL; couplings];
+        let still = vec![[0.0; 4]; couplings];
         Sight {
-            free: readings.clone(),
-            moved: readings,
+            free: still.clone(),
+            moved: still,
             nodes: core::array::from_fn(|_| pair()),
             trial: pair(),
             drift: vec![[0.0; 2]; couplings],
@@ -49,23 +49,25 @@ impl Sight {
     pub(super) fn exert(&mut self, exchange: &Exchange, influences: &Influences) {
         self.moved.copy_from_slice(&self.free);
         for (pair, influence) in exchange.pairs.iter().zip(&influences.of_pairs) {
-            let mut readings = self.moved[pair.sensor];
+            let mut moved = self.moved[pair.sensor];
             for (force, row) in self.forces[pair.actuator].iter().zip(influence) {
-                accumulate(&mut readings, -force, row);
+                subtract_multiple(&mut moved, *force, row);
             }
-            self.moved[pair.sensor] = readings;
+            self.moved[pair.sensor] = moved;
         }
     }
 
-    /// Shows the nodes as couplings have moved to them.
-    pub(super) fn show(&mut self) {
+    /// Shows the nodes of a step of this length as couplings have moved to them.
+    pub(super) fn show(&mut self, step: f64) {
         let [start, others @ ..] = &mut self.nodes;
+        let per_step = 1.0 / step;
         for (coupling, moved) in self.moved.iter().enumerate() {
-            for (what, [_, moved @ ..]) in moved.iter().enumerate() {
-                let start = start[what][coupling];
-                for (node, moved) in others.iter_mut().zip(moved) {
-                    node[what][coupling] = start + moved;
-                }
+            let start = [start[0][coupling], start[1][coupling]];
+            let mut rates = rates_at_nodes(moved, per_step);
+            add_multiple(&mut rates, start[1], &HERMITE_SLOPES.of_common_slope);
+            for (node, shown) in (1..).zip(&mut *others) {
+                shown[0][coupling] = start[0] + moved[node];
+                shown[1][coupling] = start[1] + rates[node];
             }
         }
     }
@@ -79,7 +81,11 @@ impl Sight {
 
     /// How far the deflection of a coupling has moved at a node, without the rounding of large deflections.
     pub(super) fn moved(&self, coupling: usize, node: usize) -> f64 {
-        self.moved[coupling][0][node]
+        if node == 0 {
+            0.0
+        } else {
+            self.moved[coupling][node]
+        }
     }
 
     /// Deflections of a coupling at both places for comparison, then its rates, in a step of this length.
@@ -87,16 +93,17 @@ impl Sight {
     pub(super) fn at_checks(&self, coupling: usize, step: f64) -> [[f64; CHECKS]; 2] {
         let [d0, v0] = self.start(coupling);
         let Hermite {
-            of_values,
-            of_slopes,
+            of_values: [_, of_values @ ..],
+            of_slopes: [of_first, of_last],
         } = &HERMITE_AT_CHECKS;
-        let [deflections, rates] = &self.moved[coupling];
         // Movements, because slopes are differences.
+        let [rate, deflections @ ..] = &self.moved[coupling];
         let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
-        for node in 0..NODES {
-            add_multiple(&mut values, deflections[node], &of_values[node]);
-            add_multiple(&mut slopes, v0 + rates[node], &of_slopes[node]);
+        for (deflection, weights) in deflections.iter().zip(of_values) {
+            add_multiple(&mut values, *deflection, weights);
         }
+        add_multiple(&mut slopes, v0, of_first);
+        add_multiple(&mut slopes, v0 + rate, of_last);
         let per_step = 1.0 / step;
         [
             [0, 1].map(|i| d0 + (values[i] + step * slopes[i])),
@@ -114,8 +121,8 @@ impl Sight {
         let [deflections, rates] = &mut self.nodes[0];
         let both = deflections.iter_mut().zip(rates).zip(&self.moved);
         for ((deflection, rate), moved) in both {
-            *deflection += moved[0][END];
-            *rate += moved[1][END];
+            *deflection += moved[END];
+            *rate += moved[RATE];
         }
         for forces in &mut self.forces {
             forces[0] = forces[END];
@@ -129,7 +136,8 @@ impl Sight {
         };
         let of_motion = |i: usize| {
             let start = self.nodes[0][0][i];
-            mean(self.moved[i][0].map(|moved| start + moved))
+            let [_, a, b, end] = self.moved[i].map(|moved| start + moved);
+            mean([start, a, b, end])
         };
         let forces = self.forces[monitor.couplings.clone()].iter();
         forces.map(|&forces| mean(forces)).sum::<f64>()
@@ -137,39 +145,33 @@ impl Sight {
     }
 }
 
-/// readings += value row.
+/// How far the rate of a coupling that does not move at the start moves to every node.
 #[inline(always)]
-pub(super) fn accumulate(readings: &mut Readings, value: f64, row: &Readings) {
-    for (sum, part) in readings.iter_mut().zip(row) {
-        add_multiple(sum, value, part);
-    }
+pub(super) fn rates_at_nodes([rate, a, b, end]: &Moved, per_step: f64) -> Quad {
+    let HermiteSlopes {
+        of_inner_values,
+        of_last_value,
+        of_more_slope,
+        ..
+    } = &HERMITE_SLOPES;
+    let mut rates = of_more_slope.map(|per_rate| rate * per_rate);
+    add_multiple(&mut rates, (a + b) * per_step, of_inner_values);
+    add_multiple(&mut rates, end * per_step, of_last_value);
+    rates
 }
 
-/// readings += rows' values: one row per value.
+/// moved += rows' values: one row per value.
 #[inline(always)]
-pub(super) fn accumulate_all(readings: &mut Readings, rows: &[Readings], values: &[Quad]) {
+pub(super) fn accumulate(moved: &mut Moved, rows: &[Moved], values: &[Quad]) {
     // Two sums side by side, so that one addition need not wait for the last.
-    let (mut even, mut odd) = (*readings, STILL);
+    let (mut even, mut odd) = (*moved, [0.0; 4]);
     for (rows, values) in rows.as_chunks::<4>().0.iter().zip(values) {
-        accumulate(&mut even, values[0], &rows[0]);
-        accumulate(&mut odd, values[1], &rows[1]);
-        accumulate(&mut even, values[2], &rows[2]);
-        accumulate(&mut odd, values[3], &rows[3]);
+        add_multiple(&mut even, values[0], &rows[0]);
+        add_multiple(&mut odd, values[1], &rows[1]);
+        add_multiple(&mut even, values[2], &rows[2]);
+        add_multiple(&mut odd, values[3], &rows[3]);
     }
-    for ((readings, even), odd) in readings.iter_mut().zip(&even).zip(&odd) {
-        *readings = core::array::from_fn(|i| even[i] + odd[i]);
-    }
-}
-
-/// Deflection and rate of a sensor in these states.
-#[inline(always)]
-pub(super) fn both(rows: &[[f64; 2]], states: &[f64]) -> [f64; 2] {
-    let mut seen = [0.0; 2];
-    for (row, state) in rows.iter().zip(states) {
-        seen[0] += row[0] * state;
-        seen[1] += row[1] * state;
-    }
-    seen
+    *moved = core::array::from_fn(|i| even[i] + odd[i]);
 }
 
 /// Deflections and rates as the laws see them.

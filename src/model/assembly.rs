@@ -81,10 +81,13 @@ impl ModalModel {
         harmonics.extend(vibration.harmonic(&rotors, system.size));
         let bearing_forces = BearingForce::of_all(&mut system, &rotors);
         system.monitors = monitors::monitors(&system, &rotors, &meshes, &radial, &spins);
+        let is_straight = radial.is_empty() && spins.is_empty();
         Ok(ModalModel {
             system,
-            meshes,
             slack: slack.filter(|slack| slack.is_finite()).unwrap_or(0.0),
+            is_straight,
+            is_timed: is_straight && meshes.iter().all(Mesh::is_timed),
+            meshes,
             radial,
             spins,
             harmonics,

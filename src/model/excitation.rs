@@ -9,7 +9,7 @@
 //! In free spin unbalance and bow follow the state instead ([`super::spin`]).
 
 use super::radial::RadialBearing;
-use super::{BaseMotion, Course, Mesh, ModalModel, Rotor};
+use super::{BaseMotion, Course, ModalModel, Rotor};
 use crate::rotor::BowLoad;
 use crate::solver::{Block, Forcing, Harmonic, Instant, Lines, Piece, Ramp, Spring};
 use crate::train;
@@ -136,7 +136,7 @@ impl Forcing for Excitation<'_> {
     }
 
     fn is_straight(&self) -> bool {
-        self.model.radial.is_empty() && self.model.spins.is_empty()
+        self.model.is_straight
     }
 
     #[inline(always)] // into the loops over states, with their vectors
@@ -163,7 +163,7 @@ impl Forcing for Excitation<'_> {
     }
 
     fn is_timed(&self) -> bool {
-        self.is_straight() && self.model.meshes.iter().all(Mesh::is_timed)
+        self.model.is_timed
     }
 
     fn margin(&self, law: usize, piece: Piece, at: Instant<'_>) -> f64 {

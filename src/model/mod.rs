@@ -67,6 +67,10 @@ pub struct ModalModel {
     /// How far from the ends of pieces of their stiffness a step may end where the tolerance is 1 [s]: with the fourth root of
     /// the tolerance ([`StiffnessLaw::slack`]).
     slack: f64,
+    /// Whether all forces are straight lines in their own deflection and rate while their pieces last.
+    is_straight: bool,
+    /// Whether time alone ends pieces of laws.
+    is_timed: bool,
     /// Bearings with a radial force in addition.
     radial: Vec<RadialBearing>,
     /// In free spin one for every rotor, otherwise none.

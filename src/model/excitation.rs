@@ -99,25 +99,28 @@ impl Forcing for Excitation<'_> {
         &self.model.harmonics
     }
 
-    fn next_breakpoint(&self, time: f64) -> f64 {
+    fn follow_time(&self, time: f64, pieces: &mut [Piece]) -> f64 {
         let meshes = self.model.meshes.iter();
         meshes
-            .map(|mesh| mesh.next_breakpoint(time))
+            .map(|mesh| mesh.follow_time(time, pieces))
             .fold(f64::INFINITY, f64::min)
     }
 
-    fn slack(&self, tolerance: f64) -> f64 {
-        self.model.slack * tolerance.sqrt().sqrt()
-    }
-
-    fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]) {
+    fn follow_motion(&self, start: Instant<'_>, pieces: &mut [Piece]) {
+        if self.model.is_timed {
+            return;
+        }
         for mesh in &self.model.meshes {
-            mesh.enter(start, inside, pieces);
+            mesh.follow_motion(start, pieces);
         }
         for bearing in &self.model.radial {
             let base = self.base(bearing.input, start.time);
             pieces[bearing.law] = bearing.piece(start, &base);
         }
+    }
+
+    fn slack(&self, tolerance: f64) -> f64 {
+        self.model.slack * tolerance.sqrt().sqrt()
     }
 
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {

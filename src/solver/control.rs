@@ -57,10 +57,9 @@ impl Control {
         }
     }
 
-    /// The last step in these pieces asks for this one [s], or at least for it. What decided takes it over; the others keep
-    /// what is longer.
-    pub(super) fn want(&mut self, step: f64, at_least: bool, pieces: &[Piece]) {
-        let decided = self.step_in(pieces);
+    /// The last step in these pieces, of which the shortest wanted step has decided, asks for this one [s], or at least for it. What
+    /// decided takes it over; the others keep what is longer, so that this one is the shortest now.
+    pub(super) fn want(&mut self, step: f64, at_least: bool, (decided, pieces): (f64, &[Piece])) {
         let step = if at_least { step.max(decided) } else { step };
         self.wanted_step = step;
         for (wanted, piece) in self.by_piece.iter_mut().zip(pieces) {

@@ -23,14 +23,14 @@ pub trait Forcing {
     fn since(&self) -> f64;
     /// The parts of f that turn with fixed frequencies.
     fn harmonics(&self) -> &[Harmonic];
-    /// The first time clearly after `time` at which the piece of some law ends whatever the motion; infinity
-    /// when there is none.
-    fn next_breakpoint(&self, time: f64) -> f64;
+    /// Chooses the pieces that end whatever the motion, those that hold just after `time`, and gives when the first of them ends;
+    /// infinity when none does.
+    fn follow_time(&self, time: f64, pieces: &mut [Piece]) -> f64;
+    /// Chooses the others, for a stretch that begins with `start`.
+    fn follow_motion(&self, start: Instant<'_>, pieces: &mut [Piece]);
     /// How far from a breakpoint a step may end without harm to a solution of this tolerance [s]: pieces that join smoothly may be
     /// continued a little; 0 where one jumps or has a kink.
     fn slack(&self, tolerance: f64) -> f64;
-    /// The piece of every law in a stretch that begins with `start` and contains the time `inside`.
-    fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]);
     /// F of every coupling, each law continued smoothly from its piece.
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]);
     /// Whether all forces are straight lines in their own deflection and rate while their pieces last.

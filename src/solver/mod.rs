@@ -166,8 +166,8 @@ impl System {
         };
         let mut forces = vec![0.0; self.couplings.len()];
         let mut pieces = vec![Piece::default(); self.laws];
-        let inside = forcing.next_breakpoint(time).min(time + 1.0);
-        forcing.enter(at, 0.5 * (time + inside), &mut pieces);
+        forcing.follow_time(time, &mut pieces);
+        forcing.follow_motion(at, &mut pieces);
         forcing.forces_into(at, &pieces, &mut forces);
         let mut acceleration = vec![0.0; self.size];
         forcing.load_into(self, time, &mut acceleration);

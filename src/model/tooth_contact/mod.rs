@@ -215,13 +215,27 @@ impl Mesh {
         }
     }
 
-    /// Chooses the pieces of a stretch that begins with `start` and contains the time `inside`.
-    pub(super) fn enter(&self, start: Instant<'_>, inside: f64, pieces: &mut [Piece]) {
-        let inside = match self.turning {
-            None => self.phase_at(inside).value,
-            Some(_) => self.phase(start).ahead(),
-        };
-        pieces[self.first_law] = piece_of(&self.law, inside);
+    /// Chooses the piece of the stiffness just after a time at prescribed speed, and gives when it ends; infinity where it does not,
+    /// or where the motion ends it.
+    pub(super) fn follow_time(&self, time: f64, pieces: &mut [Piece]) -> f64 {
+        if self.turning.is_some() {
+            return f64::INFINITY;
+        }
+        let piece = piece_of(&self.law, self.phase_at(time).ahead());
+        pieces[self.first_law] = piece;
+        if self.law.is_smooth() || self.phase_rate == 0.0 {
+            return f64::INFINITY;
+        }
+        let [start, end] = self.ends(piece);
+        let next = if self.phase_rate > 0.0 { end } else { start };
+        (piece.origin + next - self.start_phase) / self.phase_rate
+    }
+
+    /// Chooses the other pieces, for a stretch that begins with `start`: what the flanks do, and in free spin the stiffness.
+    pub(super) fn follow_motion(&self, start: Instant<'_>, pieces: &mut [Piece]) {
+        if self.turning.is_some() {
+            pieces[self.first_law] = piece_of(&self.law, self.phase(start).ahead());
+        }
         if self.backlash.is_some() {
             for flank in [0, 1] {
                 let closed = self.contact_margin(flank, pieces[self.first_law], start) > 0.0;
@@ -306,23 +320,15 @@ impl Mesh {
         }
         self.law.slack(tolerance) / self.phase_rate.abs()
     }
-
-    /// The first time after `time` at which the stiffness ends a piece at prescribed speed.
-    pub(super) fn next_breakpoint(&self, time: f64) -> f64 {
-        if self.turning.is_some() || self.law.is_smooth() || self.phase_rate == 0.0 {
-            return f64::INFINITY;
-        }
-        let piece = piece_of(&self.law, self.phase_at(time).ahead());
-        let [start, end] = self.ends(piece);
-        let next = if self.phase_rate > 0.0 { end } else { start };
-        (piece.origin + next - self.start_phase) / self.phase_rate
-    }
 }
 
 impl Phase {
     /// The phase a moment later, beyond a breakpoint that has just been reached.
     fn ahead(self) -> f64 {
-        self.value + self.rate.signum() * PASSED.max(8.0 * f64::EPSILON * self.value.abs())
+        self.value
+            + PASSED
+                .max(8.0 * f64::EPSILON * self.value.abs())
+                .copysign(self.rate)
     }
 }
 

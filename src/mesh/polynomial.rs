@@ -39,8 +39,9 @@ impl Polynomial {
     #[inline(always)]
     pub(super) fn values<const N: usize>(&self, places: [f64; N]) -> [f64; N] {
         let squares = places.map(|t| t * t);
-        let (mut even, mut odd) = ([0.0; N], [0.0; N]);
-        for pair in self.0.chunks_exact(2).rev() {
+        let [lower @ .., highest_even, highest_odd] = self.0;
+        let (mut even, mut odd) = ([highest_even; N], [highest_odd; N]);
+        for pair in lower.chunks_exact(2).rev() {
             for i in 0..N {
                 even[i] = even[i] * squares[i] + pair[0];
                 odd[i] = odd[i] * squares[i] + pair[1];

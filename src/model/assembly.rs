@@ -242,6 +242,7 @@ fn join(system: &mut System, rotors: &[Rotor], mesh: &train::Mesh, free: bool) -
             system.couplings.push(both(&back));
         }
     }
+    let couplings = first_coupling..system.couplings.len();
     let turning = free.then(|| {
         let gear = mesh.gears[0];
         system.couplings.push(Coupling {
@@ -265,7 +266,7 @@ fn join(system: &mut System, rotors: &[Rotor], mesh: &train::Mesh, free: bool) -
         pitches: mesh.pitches,
         phase_rate: mesh.phase_rate,
         turning,
-        first_coupling,
+        couplings,
         first_law: system.laws,
     };
     system.laws += joined.law_count();

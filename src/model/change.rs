@@ -120,8 +120,8 @@ impl Change<'_> {
             if absent || open {
                 return 0.0;
             }
-            let row = &motion.model.system.couplings[mesh.first_coupling + flank].row;
-            let seen = motion.state.seen(mesh.first_coupling + flank);
+            let row = &motion.model.system.couplings[mesh.couplings.start + flank].row;
+            let seen = motion.state.seen(mesh.couplings.start + flank);
             let change = [self.displacement(row), self.velocity(row)];
             let depth = mesh.compression(flank, phase, seen).depth;
             let change = mesh.compression_change(flank, phase, phase_change, change);

@@ -58,9 +58,9 @@ impl ModalModel {
     /// printed equation. Radial forces of bearings are not among them.
     pub fn mean_springs(&self) -> impl Iterator<Item = MeanSpring<'_>> {
         self.meshes.iter().enumerate().flat_map(|(index, mesh)| {
-            let mut couplings = mesh.couplings();
+            let mut couplings = mesh.couplings.clone();
             if mesh.backlash.is_some() {
-                couplings.end = mesh.first_coupling + 1;
+                couplings.end = mesh.couplings.start + 1;
             }
             let spring = move |coupling| MeanSpring {
                 coupling,

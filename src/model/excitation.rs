@@ -100,10 +100,14 @@ impl Forcing for Excitation<'_> {
     }
 
     fn follow_time(&self, time: f64, pieces: &mut [Piece]) -> f64 {
-        let meshes = self.model.meshes.iter();
-        meshes
-            .map(|mesh| mesh.follow_time(time, pieces))
-            .fold(f64::INFINITY, f64::min)
+        let mut first = f64::INFINITY;
+        for mesh in &self.model.meshes {
+            let end = mesh.follow_time(time, pieces);
+            if end < first {
+                first = end;
+            }
+        }
+        first
     }
 
     fn follow_motion(&self, start: Instant<'_>, pieces: &mut [Piece]) {

@@ -175,7 +175,8 @@ pub struct Mesh {
     phase_rate: f64,
     /// In free spin the coupling that observes the rotation of gear a.
     turning: Option<usize>,
-    first_coupling: usize,
+    /// The couplings through which it pushes.
+    couplings: core::ops::Range<usize>,
     first_law: usize,
 }
 
@@ -321,11 +322,5 @@ impl Mesh {
             load.torque = torque.torque + behind.torque;
         }
         loads
-    }
-
-    /// The couplings through which the mesh pushes.
-    fn couplings(&self) -> core::ops::Range<usize> {
-        let two = self.backlash.is_some() || self.torque_coupling == TorqueCoupling::AsPrinted;
-        self.first_coupling..self.first_coupling + if two { 2 } else { 1 }
     }
 }

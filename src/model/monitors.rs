@@ -75,7 +75,7 @@ fn of_mesh(system: &System, mesh: &Mesh) -> Monitor {
     let own = k * mesh.row.dot_row(&mesh.row); // squared frequency of the mesh by itself
     let flanks = if mesh.backlash.is_some() { 2 } else { 1 };
     Monitor {
-        couplings: mesh.first_coupling..mesh.first_coupling + flanks,
+        couplings: mesh.couplings.start..mesh.couplings.start + flanks,
         beside: Vec::new(),
         motion: 0..0,
         row: mesh.row.clone(),

@@ -100,7 +100,7 @@ impl Motion<'_> {
     /// delta, transmission error included [m].
     pub fn mesh_deflection(&self, mesh: usize) -> f64 {
         let mesh = &self.model.meshes[mesh];
-        let seen = self.state.seen(mesh.first_coupling);
+        let seen = self.state.seen(mesh.couplings.start);
         mesh.compression(0, self.phase(mesh), seen).depth
     }
 
@@ -118,7 +118,7 @@ impl Motion<'_> {
             if flank == 1 && mesh.backlash.is_none() {
                 return 0.0;
             }
-            let seen = self.state.seen(mesh.first_coupling + flank);
+            let seen = self.state.seen(mesh.couplings.start + flank);
             mesh.flank_force(k, mesh.compression(flank, phase, seen))
         })
     }

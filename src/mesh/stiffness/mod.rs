@@ -41,14 +41,21 @@ enum Shape {
         more_pairs: f64,
         split: f64,
     },
-    /// The law, and each piece over the distance from its middle.
-    ToothPair(ToothPair, Vec<Polynomial>),
+    /// The law, and each piece.
+    ToothPair(ToothPair, Vec<PairSum>),
     ToothGeometry(PairStiffness),
     Fourier {
         mean: f64,
         series: FourierSeries,
     },
     Table(Table),
+}
+
+/// The sum over the pairs that a piece engages, over the distance from the middle of the piece.
+#[derive(Debug, Clone, PartialEq)]
+struct PairSum {
+    middle: f64,
+    sum: Polynomial,
 }
 
 impl StiffnessLaw {
@@ -85,7 +92,7 @@ impl StiffnessLaw {
             let pairs = (0..engaged(eps, middle)).map(|j| law.around(middle + j as f64));
             let sum = pairs.fold(Polynomial::constant(0.0), |sum, one| sum.plus(1.0, &one));
             mean += sum.integral(starts[piece] - middle, end - middle);
-            pieces.push(sum);
+            pieces.push(PairSum { middle, sum });
         }
         StiffnessLaw {
             shape: Shape::ToothPair(law, pieces),
@@ -203,8 +210,8 @@ impl StiffnessLaw {
                 [if more { more_pairs } else { fewer_pairs }; N]
             }
             Shape::ToothPair(_, ref pieces) => {
-                let middle = middle(&self.starts, piece);
-                pieces[piece].values(cycles.map(|cycle| cycle - middle))
+                let PairSum { middle, sum } = &pieces[piece];
+                sum.values(cycles.map(|cycle| cycle - middle))
             }
             Shape::ToothGeometry(ref law) => cycles.map(|cycle| {
                 self.places(law.contact_ratio(), cycle, piece)
@@ -221,7 +228,8 @@ impl StiffnessLaw {
             Shape::Fourier { mean, ref series } => mean * series.slope(cycle),
             Shape::Table(ref table) => table.slope(piece),
             Shape::ToothPair(_, ref pieces) => {
-                pieces[piece].slope(cycle - middle(&self.starts, piece))
+                let PairSum { middle, sum } = &pieces[piece];
+                sum.slope(cycle - middle)
             }
             Shape::ToothGeometry(ref law) => self
                 .places(law.contact_ratio(), cycle, piece)

@@ -49,17 +49,17 @@ impl<'a> Laws<'a> {
     /// Deflection of a mesh's coupling beyond its gap [m].
     fn depth(&self, mesh: &Mesh, coupling: usize, position: &[f64]) -> f64 {
         let deflection = self.model.system.couplings[coupling].row.dot(position);
-        let back = coupling > mesh.first_coupling;
+        let back = coupling > mesh.couplings.start;
         deflection - mesh.backlash.filter(|_| back).unwrap_or(0.0)
     }
 
     /// Force of the reference flank less that of the back flank [N].
     pub(super) fn mesh_force(&self, mesh: &Mesh, position: &[f64]) -> f64 {
         let depth = |coupling: usize| self.depth(mesh, coupling, position);
-        let front = depth(mesh.first_coupling);
+        let front = depth(mesh.couplings.start);
         let depth = match mesh.backlash {
             None => front,
-            Some(_) => front.max(0.0) - depth(mesh.first_coupling + 1).max(0.0),
+            Some(_) => front.max(0.0) - depth(mesh.couplings.start + 1).max(0.0),
         };
         mesh.mean_stiffness() * depth
     }
@@ -102,7 +102,7 @@ impl<'a> Laws<'a> {
     fn mesh_springs(&self, position: &[f64]) -> Vec<MeshSpring> {
         let mut springs = Vec::new();
         for mesh in &self.model.meshes {
-            for coupling in mesh.couplings() {
+            for coupling in mesh.couplings.clone() {
                 let depth = self.depth(mesh, coupling, position);
                 if mesh.backlash.is_none() || depth > 0.0 {
                     let data = &self.model.system.couplings[coupling];
@@ -182,7 +182,7 @@ impl<'a> Laws<'a> {
             .model
             .meshes
             .iter()
-            .flat_map(Mesh::couplings)
+            .flat_map(|mesh| mesh.couplings.clone())
             .map(|coupling| &self.model.system.couplings[coupling].row)
             .collect();
         let mut balanced = load.to_vec();

@@ -74,7 +74,7 @@ impl Mesh {
     }
 
     fn stiffness_in(&self, piece: Piece, phase: Phase) -> f64 {
-        let [stiffness] = self.stiffnesses(piece, &[phase]);
+        let [stiffness] = self.stiffnesses(piece, [phase.value]);
         stiffness
     }
 
@@ -119,44 +119,52 @@ impl Mesh {
         }
     }
 
-    /// The force of a coupling of the mesh as lines, in some phases with their stiffnesses: each flank, or what the torque
-    /// follows; nothing where a flank is open.
+    /// Overwrites the force of a coupling as lines, with these stiffnesses in some phases: each flank, or what the torque follows.
     #[inline(always)]
-    fn lines<const N: usize>(
+    fn line_into<const N: usize>(
         &self,
         number: usize,
-        phases: &[Phase; N],
-        stiffness: &[f64; N],
+        stiffness: [f64; N],
+        phases: impl Fn() -> [Phase; N],
         pieces: &[Piece],
-    ) -> Lines<N> {
-        let open = self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN;
-        if open {
-            return Lines::ZERO;
-        }
-        // Without backlash the second coupling follows the rotations alone.
-        let bare = number == 1 && self.backlash.is_none();
-        let straight = bare || (self.backlash.is_none() && self.error.is_zero());
-        let mut lines = Lines {
-            stiffness: *stiffness,
+        lines: &mut Lines<N>,
+    ) {
+        *lines = Lines {
+            stiffness,
             damping: [self.damping; N],
             rest: [0.0; N],
         };
-        if !straight {
-            let laws = phases.iter().zip(stiffness);
-            for (rest, (&phase, &k)) in lines.rest.iter_mut().zip(laws) {
-                *rest = self.held_force(k, self.compression(number, phase, [0.0; 2]));
-            }
+        // Without backlash the second coupling follows the rotations alone.
+        let passes_zero = self.backlash.is_none() && (number == 1 || self.error.is_zero());
+        if !passes_zero {
+            self.shift(number, phases(), pieces, lines);
         }
-        lines
+    }
+
+    /// Moves the lines of a flank by transmission error and backlash; nothing remains of them where it is open.
+    fn shift<const N: usize>(
+        &self,
+        number: usize,
+        phases: [Phase; N],
+        pieces: &[Piece],
+        lines: &mut Lines<N>,
+    ) {
+        if self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN {
+            *lines = Lines::ZERO;
+            return;
+        }
+        let laws = lines.stiffness.iter().zip(phases);
+        for (rest, (&k, phase)) in lines.rest.iter_mut().zip(laws) {
+            *rest = self.held_force(k, self.compression(number, phase, [0.0; 2]));
+        }
     }
 
     /// k [N/m] in some phases, continued smoothly from a piece.
     #[inline(always)]
-    fn stiffnesses<const N: usize>(&self, piece: Piece, phases: &[Phase; N]) -> [f64; N] {
-        let cycles = phases.map(|phase| phase.value - piece.origin);
-        self.law
-            .values(cycles, piece.index)
-            .map(|value| self.factor * value)
+    fn stiffnesses<const N: usize>(&self, piece: Piece, phases: [f64; N]) -> [f64; N] {
+        let cycles = phases.map(|phase| phase - piece.origin);
+        let values = self.law.values(cycles, piece.index);
+        values.map(|value| self.factor * value)
     }
 
     /// Overwrites the lines of the mesh's couplings at some times, at prescribed speed.
@@ -167,10 +175,11 @@ impl Mesh {
         pieces: &[Piece],
         lines: &mut [Lines<N>],
     ) {
-        let phases = times.map(|time| self.phase_at(time));
-        let stiffness = self.stiffnesses(pieces[self.first_law], &phases);
-        for (number, lines) in lines[self.couplings()].iter_mut().enumerate() {
-            *lines = self.lines(number, &phases, &stiffness, pieces);
+        let phases = times.map(|time| self.phase_at(time).value);
+        let stiffness = self.stiffnesses(pieces[self.first_law], phases);
+        for (number, lines) in lines[self.couplings.clone()].iter_mut().enumerate() {
+            let phases = || times.map(|time| self.phase_at(time));
+            self.line_into(number, stiffness, phases, pieces, lines);
         }
     }
 
@@ -188,10 +197,11 @@ impl Mesh {
 
     /// Overwrites the forces of the mesh's couplings.
     pub(super) fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
-        let phase = [self.phase(at)];
-        let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
-        for (number, coupling) in self.couplings().enumerate() {
-            let line = self.lines(number, &phase, &stiffness, pieces);
+        let phase = self.phase(at);
+        let stiffness = self.stiffnesses(pieces[self.first_law], [phase.value]);
+        let mut line = Lines::ZERO;
+        for (number, coupling) in self.couplings.clone().enumerate() {
+            self.line_into(number, stiffness, || [phase], pieces, &mut line);
             forces[coupling] = line.at(0, at.deflection[coupling], at.rate[coupling]);
         }
         if let Some(observer) = self.turning {
@@ -201,10 +211,11 @@ impl Mesh {
 
     /// Overwrites the tangents of the mesh's couplings.
     pub(super) fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
-        let phase = [self.phase(at)];
-        let stiffness = self.stiffnesses(pieces[self.first_law], &phase);
-        for (number, coupling) in self.couplings().enumerate() {
-            let line = self.lines(number, &phase, &stiffness, pieces);
+        let phase = self.phase(at);
+        let stiffness = self.stiffnesses(pieces[self.first_law], [phase.value]);
+        let mut line = Lines::ZERO;
+        for (number, coupling) in self.couplings.clone().enumerate() {
+            self.line_into(number, stiffness, || [phase], pieces, &mut line);
             tangents[coupling] = Spring {
                 stiffness: line.stiffness[0],
                 damping: line.damping[0],
@@ -248,7 +259,7 @@ impl Mesh {
     fn contact_margin(&self, flank: usize, stiffness: Piece, at: Instant<'_>) -> f64 {
         let phase = self.phase(at);
         let k = self.stiffness_in(stiffness, phase);
-        let coupling = self.first_coupling + flank;
+        let coupling = self.couplings.start + flank;
         let motion = [at.deflection[coupling], at.rate[coupling]];
         let compression = self.compression(flank, phase, motion);
         let by_force = compression.depth + self.damping / k * compression.rate;

@@ -22,7 +22,7 @@ fn mesh(phase_rate: f64) -> Mesh {
         pitches: 1.0,
         phase_rate,
         turning: None,
-        first_coupling: 0,
+        couplings: 0..1,
         first_law: 0,
     }
 }

@@ -156,7 +156,9 @@ impl March {
         while state.time < until - goal.rounding {
             method.observe(task, state);
             let stop = self.stretch.enter(method, task, state, &goal);
-            self.events.enter_stretch();
+            if !task.forcing.is_timed() {
+                self.events.enter_stretch();
+            }
             method.begin(task, state, &self.stretch.pieces);
             self.cross_stretch(method, task, state, (stop, &goal))?;
         }

@@ -92,6 +92,7 @@ impl BlockDiagonal {
     }
 
     /// y += A x of the larger blocks.
+    #[inline(always)]
     pub(super) fn add_others(&self, x: &[f64], y: &mut [f64]) {
         for (first, m, block) in &self.others {
             let range = *first..first + m;

@@ -15,7 +15,7 @@ use nalgebra::Complex;
 use super::block_diagonal::BlockDiagonal;
 use super::exchange::{Exchange, Influences};
 use super::lanes::{Quad, add_product, subtract_multiple, subtract_product};
-use super::panel::{Panels, Place, entries};
+use super::panel::{Panels, Place};
 use super::part::Part;
 use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, POWERS, SEEN_AT};
 use super::scratch::{Scratch, Share};
@@ -51,10 +51,10 @@ pub(super) struct Coefficients {
     pub(super) ramp: Vec<Moved>,
     /// What the end takes from the forces at the nodes, -f_j: per push and quad of states.
     pub(super) pushes: Vec<[Quad; NODES]>,
-    /// What it takes from cosine and sine of the angle of a harmonic: per response and quad of states.
-    pub(super) responses: Vec<[Quad; 2]>,
-    /// What sensors read per cosine and sine of the angle of a harmonic: per look and harmonic.
-    pub(super) turning: Vec<[Moved; 2]>,
+    /// What it takes from cosine and sine of the angles of two harmonics: per response and quad of states.
+    pub(super) responses: Vec<[Quad; 4]>,
+    /// How sensors move per cosine and sine of the angles of two harmonics: per turn.
+    pub(super) turning: Vec<[Moved; 4]>,
     /// e^(i w h) of every harmonic.
     pub(super) rotations: Vec<Complex<f64>>,
     pub(super) influences: Influences,
@@ -73,9 +73,9 @@ impl Coefficients {
             ramp_gain: BlockDiagonal::zero(parts),
             free: vec![[0.0; 4]; panels.states()],
             ramp: vec![[0.0; 4]; panels.states()],
-            pushes: vec![[[0.0; 4]; NODES]; entries(&panels.pushes)],
-            responses: vec![[[0.0; 4]; 2]; entries(&panels.responses)],
-            turning: vec![[[0.0; 4]; 2]; panels.turns.len()],
+            pushes: vec![[[0.0; 4]; NODES]; panels.pushed()],
+            responses: vec![[[0.0; 4]; 4]; panels.answering()],
+            turning: vec![[[0.0; 4]; 4]; panels.turns.len()],
             rotations: vec![Complex::new(1.0, 0.0); harmonics],
             influences: Influences::unused(exchange),
         }
@@ -89,11 +89,10 @@ impl Coefficients {
 
     /// Memory in use [bytes].
     pub(super) fn bytes(&self) -> usize {
-        let readings = 2 * (self.free.len() + self.turning.len()) * size_of::<Moved>();
-        let columns = 4 * NODES * self.pushes.len() + 8 * self.responses.len();
-        let numbers = columns + 2 * self.rotations.len();
+        let rows = 2 * self.free.len() + 4 * self.turning.len();
+        let columns = NODES * self.pushes.len() + 4 * self.responses.len();
         let matrices = self.gain.bytes() + self.ramp_gain.bytes();
-        readings + numbers * size_of::<f64>() + matrices + self.influences.bytes()
+        (rows + columns) * size_of::<Quad>() + matrices + self.influences.bytes()
     }
 
     /// Computes everything for steps of length h; `frequencies` are those of all harmonics [rad/s].
@@ -263,12 +262,11 @@ impl Coefficients {
         let quads = part.quads().len();
         let mut responses = scratch.responses.as_chunks::<4>().0;
         for harmonic in 0..part.harmonics.len() {
-            let own = &mut self.responses[place.responses(harmonic)..][..quads];
+            let (twos, which) = (harmonic / 2, 2 * (harmonic % 2));
+            let own = &mut self.responses[place.responses(twos)..][..quads];
             for (columns, responses) in own.iter_mut().zip(responses) {
-                *columns = [
-                    responses.each_ref().map(|[re, _]| re[END]),
-                    responses.each_ref().map(|[_, im]| -im[END]),
-                ];
+                columns[which] = responses.each_ref().map(|[re, _]| re[END]);
+                columns[which + 1] = responses.each_ref().map(|[_, im]| -im[END]);
             }
             responses = &responses[quads..];
         }
@@ -286,7 +284,9 @@ impl Coefficients {
                     add_product(&mut cosine, row, re);
                     subtract_product(&mut sine, row, im);
                 }
-                self.turning[place.turns(sensor) + number] = [cosine, sine];
+                let (twos, which) = (number / 2, 2 * (number % 2));
+                let moved = &mut self.turning[place.turns(sensor) + twos];
+                (moved[which], moved[which + 1]) = (cosine, sine);
             }
         }
     }

@@ -62,40 +62,44 @@ impl Kernel {
         let mean_square = |number: usize| {
             (control.squares[number] + span.step * self.squares[number]) * per_elapsed
         };
-        let mut worst: f64 = 0.0;
+        let mut worst = 0.0;
         for (number, monitor) in monitors.iter().enumerate() {
             if monitor.couplings.is_empty() && monitor.motion.is_empty() {
                 continue; // exact
             }
-            let others = monitor.beside.iter().map(|&other| mean_square(other));
-            let mean = others.fold(mean_square(number), |sum, one| sum + one);
+            let mut mean = mean_square(number);
+            for &other in &monitor.beside {
+                mean += mean_square(other);
+            }
             let reference = mean.sqrt().max(monitor.floor);
             let decay = monitor.damping_ratio * monitor.frequency;
             let remembered = (1.0 / decay.max(f64::MIN_POSITIVE)).min(elapsed);
             let steps = (remembered * per_step).max(1.0);
             let scale = (SAFETY * steps).max(1.0) / (reference * task.tolerance);
-            let deflection = |i: usize| sight.drift[i][0];
-            let force = |i: usize| {
-                let change = self.nodes.change[i];
+            let mut change = 0.0;
+            for i in monitor.couplings.clone() {
                 let [deflection, rate] = sight.drift[i];
-                let hidden = [monitor.stiffness * deflection, monitor.impedance * rate];
-                // Written so that a NaN stays one.
-                hidden.into_iter().fold(
-                    change,
-                    |most, one| {
-                        if one.abs() > most.abs() { one } else { most }
-                    },
-                )
-            };
-            let of_force = monitor.couplings.clone().map(force);
-            let of_motion = monitor.motion.clone().map(deflection);
-            for change in of_force.chain(of_motion) {
-                let relative = scale * change.abs();
-                // f64::max would drop a NaN.
-                worst = if relative <= worst { worst } else { relative };
+                change = worse(change, self.nodes.change[i]);
+                change = worse(change, monitor.stiffness * deflection);
+                change = worse(change, monitor.impedance * rate);
             }
+            for i in monitor.motion.clone() {
+                change = worse(change, sight.drift[i][0]);
+            }
+            worst = worse(worst, scale * change);
         }
         worst
+    }
+}
+
+/// The larger of the sizes of two errors; a NaN is worse than any. The first one is a size.
+#[inline(always)]
+fn worse(worst: f64, one: f64) -> f64 {
+    let one = one.abs();
+    if one <= worst || worst.is_nan() {
+        worst
+    } else {
+        one
     }
 }
 

@@ -108,10 +108,7 @@ impl Elimination {
     pub(super) fn solve(&self, blocks: &mut [Square], sides: &mut [Quad]) {
         for pivot in &self.pivots {
             let own = &mut blocks[pivot.own];
-            for (i, column) in own.iter_mut().enumerate() {
-                column[i + 1] += 1.0;
-            }
-            let inverse = inverse_of(own);
+            let inverse = inverse_with_one(own);
             *own = inverse;
             let side = sides[pivot.coupling];
             for neighbour in &pivot.neighbours {
@@ -160,7 +157,7 @@ fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
 
 /// Matrix times unknowns.
 #[inline(always)]
-fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
+pub(super) fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
     let mut sum = [0.0; 4];
     for (column, x) in columns.iter().zip(x) {
         add_multiple(&mut sum, *x, column);
@@ -170,27 +167,29 @@ fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
 
 /// sum -= matrix times unknowns.
 #[inline(always)]
-fn subtract_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+pub(super) fn subtract_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
     for (column, x) in columns.iter().zip(x) {
         subtract_multiple(sum, *x, column);
     }
 }
 
-/// By cofactors.
+/// (1 + A)^-1, by cofactors.
 #[inline(always)]
-fn inverse_of([a, b, c]: &Square) -> Square {
-    let cross = |x: &Quad, y: &Quad| {
-        [
-            x[2] * y[3] - x[3] * y[2],
-            x[3] * y[1] - x[1] * y[3],
-            x[1] * y[2] - x[2] * y[1],
-        ]
+pub(super) fn inverse_with_one([a, b, c]: &Square) -> Square {
+    let a = [0.0, a[1] + 1.0, a[2], a[3]];
+    let b = [0.0, b[1], b[2] + 1.0, b[3]];
+    let c = [0.0, c[1], c[2], c[3] + 1.0];
+    let next = |x: &Quad| [0.0, x[2], x[3], x[1]];
+    let cross = |x: &Quad, y: &Quad| -> Quad {
+        let (x_next, y_next) = (next(x), next(y));
+        let turned: Quad = core::array::from_fn(|i| x[i] * y_next[i] - x_next[i] * y[i]);
+        next(&turned)
     };
-    let rows = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = a[1] * rows[0][0] + a[2] * rows[0][1] + a[3] * rows[0][2];
+    let rows = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+    let determinant = a[1] * rows[0][1] + a[2] * rows[0][2] + a[3] * rows[0][3];
     let scale = 1.0 / determinant;
     let column = |j: usize| [0.0, rows[0][j], rows[1][j], rows[2][j]].map(|entry| scale * entry);
-    [column(0), column(1), column(2)]
+    [column(1), column(2), column(3)]
 }
 
 #[cfg(test)]

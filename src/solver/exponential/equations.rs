@@ -13,12 +13,12 @@ use super::exchange::{Exchange, Influences, Pair};
 use super::lanes::{Quad, add_multiple, are_finite, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
 use super::polynomials::{CHECK_PLACES, CHECKS, END, HERMITE_SLOPES, NODES, PLACES};
-use super::sight::{Moved, Sight, rates_at_nodes};
+use super::sight::{Moved, Sight, at_checks, rates_at_nodes};
 
 /// The most that the forces of a coupling may do to themselves within a step: beyond, they answer to rounding.
-const MOST_FEEDBACK: f64 = 4.0;
+pub(super) const MOST_FEEDBACK: f64 = 4.0;
 /// Places where laws are evaluated: the nodes, then those for comparison.
-const PLACES_OF_LINES: usize = NODES + CHECKS;
+pub(super) const PLACES_OF_LINES: usize = NODES + CHECKS;
 
 /// The equations of one step, with room for them.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ pub(super) struct Equations {
     elimination: Elimination,
     pairs: Vec<Pair>,
     /// The lines of all springs.
-    lines: Vec<Lines<PLACES_OF_LINES>>,
+    pub(super) lines: Vec<Lines<PLACES_OF_LINES>>,
     /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
     blocks: Vec<Square>,
 }
@@ -142,7 +142,7 @@ impl Equations {
     pub(super) fn compare(&self, step: f64, sight: &Sight, missing: &mut [[f64; CHECKS]]) {
         let all = missing.iter_mut().zip(&self.lines).zip(&sight.forces);
         for (coupling, ((missing, lines), forces)) in all.enumerate() {
-            let [deflections, rates] = sight.at_checks(coupling, step);
+            let [deflections, rates] = at_checks(sight.start(coupling), &sight.moved[coupling], step);
             let cubic = cubic_at_checks(forces);
             *missing = core::array::from_fn(|check| {
                 lines.at(NODES + check, deflections[check], rates[check]) - cubic[check]
@@ -163,7 +163,11 @@ impl Equations {
 
 /// What lines make of a movement at the nodes but the first; `rates` are its rates at the nodes.
 #[inline(always)]
-fn push(lines: &Lines<PLACES_OF_LINES>, moved: &Moved, rates: &Quad) -> Quad {
-    let [_, a, b, end] = core::array::from_fn(|i| lines.stiffness[i] * moved[i] + lines.damping[i] * rates[i]);
-    [0.0, a, b, end]
+pub(super) fn push(lines: &Lines<PLACES_OF_LINES>, moved: &Moved, rates: &Quad) -> Quad {
+    let mut push = [0.0; 4];
+    for i in 0..NODES {
+        push[i] = lines.stiffness[i] * moved[i] + lines.damping[i] * rates[i];
+    }
+    push[0] = 0.0;
+    push
 }

@@ -8,6 +8,7 @@
 //!   moved = free response - sum over pairs and nodes j of e_j F_actuator(j)
 //! ```
 
+use super::few::FEW;
 use super::lanes::{Quad, add_multiple};
 use super::part::Part;
 use super::polynomials::{BUBBLES, CHECKS, END, LAGRANGE, NODES, POWERS, RATE};
@@ -40,11 +41,11 @@ pub(super) struct Influences {
     /// The same for pairs of springs: how the rate moves to every node.
     pub(super) rates: Vec<[Quad; NODES]>,
     /// Deflection and rate at the end per bubble of the force at either check.
-    bubbles: Vec<[[f64; CHECKS]; 2]>,
+    pub(super) bubbles: Vec<[[f64; CHECKS]; 2]>,
 }
 
 impl Exchange {
-    /// The pairs of these parts; so many couplings, the first ones, are springs.
+    /// The pairs of these parts; so many couplings, the first ones, are springs. Few of these are all joined, if by nothing.
     pub(super) fn between(parts: &[Part], springs: usize) -> Exchange {
         let joined = |part: &Part| -> Vec<Pair> {
             let actuators = part.actuators.iter();
@@ -55,6 +56,10 @@ impl Exchange {
             pairs.collect()
         };
         let mut pairs: Vec<Pair> = parts.iter().flat_map(joined).collect();
+        if springs <= FEW {
+            let all = |sensor| (0..springs).map(move |actuator| Pair { sensor, actuator });
+            pairs.extend((0..springs).flat_map(all));
+        }
         let of_springs = |pair: &Pair| pair.sensor.max(pair.actuator) < springs;
         let place = |pair: &Pair| (!of_springs(pair), *pair);
         pairs.sort_unstable_by_key(place);

@@ -21,6 +21,7 @@ mod elimination;
 mod equations;
 mod events;
 mod exchange;
+mod few;
 mod kernel;
 mod lanes;
 mod loads;

@@ -123,17 +123,19 @@ impl Motion {
         }
     }
 
-    /// Some states grow by columns times factors.
+    /// Some states grow by the next columns of a list times factors.
     #[inline(always)]
-    pub(super) fn push<S: Simd, const N: usize>(
+    pub(super) fn push<S: Simd>(
         &mut self,
         simd: S,
         quads: &Range<usize>,
-        columns: &[[Quad; N]],
-        factors: &[f64; N],
+        columns: &mut &[[Quad; 4]],
+        factors: &[Quad; 4],
     ) {
-        let factors = factors.map(|factor| [factor; 4]);
-        for (state, columns) in self.states[quads.clone()].iter_mut().zip(columns) {
+        let states = &mut self.states[quads.clone()];
+        let own;
+        (own, *columns) = columns.split_at(states.len());
+        for (state, columns) in states.iter_mut().zip(own) {
             add_products(simd, factors.each_ref(), columns.each_ref(), state);
         }
     }

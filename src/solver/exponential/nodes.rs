@@ -11,9 +11,10 @@ use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, Spring, System};
 use super::equations::Equations;
 use super::exchange::{Exchange, Influences};
+use super::few;
 use super::lanes::Quad;
 use super::polynomials::{CHECK_PLACES, CHECKS, END, LAGRANGE_AT_CHECKS, NODES, PLACES};
-use super::sight::{Sight, instant};
+use super::sight::{Sight, at_checks, instant};
 
 /// Sweeps after which a step counts as too long.
 const MOST_SWEEPS: usize = 25;
@@ -58,6 +59,24 @@ impl Nodes {
     /// the forces were found.
     #[inline(always)]
     pub(super) fn solve(
+        &mut self,
+        (exchange, influences): (&Exchange, &Influences),
+        step: f64,
+        sight: &mut Sight,
+    ) -> bool {
+        let (lines, change) = (&self.equations.lines, &mut self.change);
+        let found = match lines.len() {
+            1 => few::solve::<1>(lines, influences, step, sight, change),
+            2 => few::solve::<2>(lines, influences, step, sight, change),
+            3 => few::solve::<3>(lines, influences, step, sight, change),
+            _ => None,
+        };
+        found.unwrap_or_else(|| self.solve_many((exchange, influences), step, sight))
+    }
+
+    /// The same for any number of springs.
+    #[inline(always)]
+    fn solve_many(
         &mut self,
         (exchange, influences): (&Exchange, &Influences),
         step: f64,
@@ -172,7 +191,8 @@ impl Nodes {
     ) {
         for (check, place) in CHECK_PLACES.into_iter().enumerate() {
             for coupling in 0..self.missing.len() {
-                let seen = sight.at_checks(coupling, span.step);
+                let start = sight.start(coupling);
+                let seen = at_checks(start, &sight.moved[coupling], span.step);
                 for (trial, seen) in sight.trial.iter_mut().zip(seen) {
                     trial[coupling] = seen[check];
                 }

@@ -16,12 +16,12 @@ pub(super) struct Panels {
     pub(super) looks: Vec<Look>,
     /// Deflection and rate per eta, in fours: for every look its quads.
     pub(super) rows: Vec<[Quad; 2]>,
-    /// The numbers of the harmonics that act on what is looked at: look by look.
-    pub(super) turns: Vec<usize>,
+    /// The harmonics that act on what is looked at: look by look.
+    pub(super) turns: Vec<Turn>,
     /// What the forces of couplings push.
     pub(super) pushes: Vec<Push>,
     /// What harmonics do: part by part.
-    pub(super) responses: Vec<Push>,
+    pub(super) responses: Vec<Response>,
     pub(super) of_parts: Vec<Place>,
 }
 
@@ -31,22 +31,30 @@ pub(super) struct Look {
     pub(super) coupling: usize,
     /// The panel's states among those of all parts, in fours.
     pub(super) quads: Range<usize>,
-    /// Its states in lists over looks and states, and its quads in those over looks and quads.
-    pub(super) states: Range<usize>,
-    pub(super) rows: Range<usize>,
-    /// Its harmonics in lists over looks and harmonics.
-    pub(super) turns: Range<usize>,
 }
 
-/// A coupling or a harmonic pushes states.
+/// Two harmonics act on what a coupling looks at. Where one has no other beside it, it stands twice, and the coefficients of the
+/// second are zero.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    pub(super) coupling: usize,
+    pub(super) harmonics: [usize; 2],
+}
+
+/// A coupling pushes states.
 #[derive(Debug, Clone)]
 pub(super) struct Push {
-    /// The number of the coupling or harmonic.
-    pub(super) by: usize,
+    pub(super) coupling: usize,
     /// The states among those of all parts, in fours.
     pub(super) quads: Range<usize>,
-    /// The same in lists over pushes and quads.
-    pub(super) entries: Range<usize>,
+}
+
+/// Two harmonics push states, in the same way as they [`Turn`].
+#[derive(Debug, Clone)]
+pub(super) struct Response {
+    pub(super) harmonics: [usize; 2],
+    /// The states among those of all parts, in fours.
+    pub(super) quads: Range<usize>,
 }
 
 /// Where the entries of one part are in these lists: the first one, and how far it is to that of the next sensor or actuator.
@@ -64,7 +72,7 @@ impl Place {
         entry(self.states, sensor)
     }
 
-    /// The first harmonic of what a sensor looks at.
+    /// The first two harmonics of what a sensor looks at.
     pub(super) fn turns(&self, sensor: usize) -> usize {
         entry(self.turns, sensor)
     }
@@ -74,9 +82,9 @@ impl Place {
         entry(self.pushes, actuator)
     }
 
-    /// The first quad that a harmonic of the part pushes.
-    pub(super) fn responses(&self, harmonic: usize) -> usize {
-        entry(self.responses, harmonic)
+    /// The first quad that two harmonics of the part push, the first two, the next two and so on.
+    pub(super) fn responses(&self, twos: usize) -> usize {
+        entry(self.responses, twos)
     }
 }
 
@@ -101,6 +109,17 @@ impl Panels {
         4 * self.rows.len()
     }
 
+    /// Number of entries in lists over pushes and quads.
+    pub(super) fn pushed(&self) -> usize {
+        self.pushes.iter().map(|push| push.quads.len()).sum()
+    }
+
+    /// Number of entries in lists over responses and quads.
+    pub(super) fn answering(&self) -> usize {
+        let responses = self.responses.iter();
+        responses.map(|response| response.quads.len()).sum()
+    }
+
     /// A panel of these parts.
     fn add(&mut self, parts: &[Part]) {
         let [first, ..] = parts else {
@@ -108,57 +127,52 @@ impl Panels {
         };
         let end = parts.iter().map(|part| part.quads().end).max();
         let quads = first.quads().start..end.unwrap_or_default();
-        let harmonics = parts.iter().flat_map(|part| &part.harmonics);
-        let harmonics: Vec<usize> = harmonics.map(|(number, _)| *number).collect();
+        let harmonics: Vec<[usize; 2]> = parts.iter().flat_map(in_twos).collect();
         let mut place = Place {
             states: [self.states(), 4 * quads.len()],
             turns: [self.turns.len(), harmonics.len()],
-            pushes: [entries(&self.pushes), quads.len()],
+            pushes: [self.pushed(), quads.len()],
             responses: [0, 0],
         };
         for (sensor, &coupling) in first.sensors.iter().enumerate() {
-            let (row, turn) = (self.rows.len(), self.turns.len());
             for part in parts {
                 let rows = &part.sensor_rows[sensor * part.len()..][..part.len()];
                 let quads = rows.as_chunks::<4>().0.iter();
                 let turned = quads.map(|rows| [END, RATE].map(|seen| rows.map(|row| row[seen])));
                 self.rows.extend(turned);
             }
-            self.turns.extend_from_slice(&harmonics);
+            let turns = harmonics.iter().map(|&harmonics| Turn {
+                coupling,
+                harmonics,
+            });
+            self.turns.extend(turns);
             self.looks.push(Look {
                 coupling,
                 quads: quads.clone(),
-                states: 4 * row..self.states(),
-                rows: row..self.rows.len(),
-                turns: turn..self.turns.len(),
             });
         }
-        for &coupling in &first.actuators {
-            push(&mut self.pushes, coupling, &quads);
-        }
+        self.pushes
+            .extend(first.actuators.iter().map(|&coupling| Push {
+                coupling,
+                quads: quads.clone(),
+            }));
         for part in parts {
-            place.responses = [entries(&self.responses), part.quads().len()];
-            for (harmonic, _) in &part.harmonics {
-                push(&mut self.responses, *harmonic, &part.quads());
-            }
+            place.responses = [self.answering(), part.quads().len()];
+            let responses = in_twos(part).map(|harmonics| Response {
+                harmonics,
+                quads: part.quads(),
+            });
+            self.responses.extend(responses);
             self.of_parts.push(place);
             place.states[0] += part.len();
-            place.turns[0] += part.harmonics.len();
+            place.turns[0] += in_twos(part).count();
             place.pushes[0] += part.quads().len();
         }
     }
 }
 
-/// Number of entries in a list over these pushes and their quads.
-pub(super) fn entries(pushes: &[Push]) -> usize {
-    pushes.last().map_or(0, |last| last.entries.end)
-}
-
-fn push(pushes: &mut Vec<Push>, by: usize, quads: &Range<usize>) {
-    let first = entries(pushes);
-    pushes.push(Push {
-        by,
-        quads: quads.clone(),
-        entries: first..first + quads.len(),
-    });
+/// The harmonics of a part, two at a time.
+fn in_twos(part: &Part) -> impl Iterator<Item = [usize; 2]> {
+    let twos = part.harmonics.chunks(2);
+    twos.map(|two| [two[0].0, two[two.len() - 1].0])
 }

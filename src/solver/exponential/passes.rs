@@ -19,14 +19,14 @@ use super::super::march::{Span, Task};
 use super::super::{Forcing, Piece, Ramp};
 use super::coefficients::Coefficients;
 use super::exchange::Exchange;
-use super::lanes::{Quad, add_multiple, add_product, are_finite, sum};
+use super::lanes::{Quad, add_product, add_products, are_finite, sum};
 use super::motion::Motion;
 use super::nodes::Nodes;
 use super::panel::Panels;
 use super::part::Part;
 use super::rows::Rows;
 use super::scratch::Scratch;
-use super::sight::{Sight, accumulate};
+use super::sight::{Moved, Sight, accumulate};
 use super::turning::Turning;
 
 /// The coefficients of a step length.
@@ -142,11 +142,13 @@ impl WithSimd for Observe<'_> {
         let [deflections, rates] = &mut self.sight.nodes[0];
         deflections.fill(0.0);
         rates.fill(0.0);
+        let mut rows = &self.panels.rows[..];
         for look in &self.panels.looks {
             let own = self.states[look.quads.clone()].iter();
-            let rows = &self.panels.rows[look.rows.clone()];
+            let looked;
+            (looked, rows) = rows.split_at(own.len());
             let (mut deflection, mut rate) = ([0.0; 4], [0.0; 4]);
-            for (states, [per_deflection, per_rate]) in own.zip(rows) {
+            for (states, [per_deflection, per_rate]) in own.zip(looked) {
                 add_product(&mut deflection, per_deflection, states);
                 add_product(&mut rate, per_rate, states);
             }
@@ -159,27 +161,30 @@ impl WithSimd for Observe<'_> {
 impl LookAhead<'_> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S) {
+        let (panels, coefficients) = (self.panels, self.coefficients);
         let (motion, sight) = (&mut *self.motion, &mut *self.sight);
         motion.differentiate(simd, self.elapsed);
         sight.free.fill([0.0; 4]);
-        let (panels, coefficients) = (self.panels, self.coefficients);
-        for look in &panels.looks {
-            let (quads, states, turns) = (&look.quads, &look.states, &look.turns);
-            let mut seen = sight.free[look.coupling];
-            let derivative = &motion.derivative[quads.clone()];
-            accumulate(&mut seen, &coefficients.free[states.clone()], derivative);
-            if motion.ramps {
-                let load_rate = &motion.load_rate[quads.clone()];
-                accumulate(&mut seen, &coefficients.ramp[states.clone()], load_rate);
-            }
-            let turning = &coefficients.turning[turns.clone()];
-            for (&harmonic, both) in panels.turns[turns.clone()].iter().zip(turning) {
-                for (part, per_part) in self.turning.angles[harmonic].iter().zip(both) {
-                    add_multiple(&mut seen, *part, per_part);
-                }
-            }
-            sight.free[look.coupling] = seen;
+        look(panels, &coefficients.free, &motion.derivative, sight);
+        if motion.ramps {
+            look(panels, &coefficients.ramp, &motion.load_rate, sight);
         }
+        for (turn, columns) in panels.turns.iter().zip(&coefficients.turning) {
+            let moved = &mut sight.free[turn.coupling];
+            let factors = self.turning.of_both(turn.harmonics);
+            add_products(simd, factors.each_ref(), columns.each_ref(), moved);
+        }
+    }
+}
+
+/// What couplings see of numbers of the states: one row per look and state.
+#[inline(always)]
+fn look(panels: &Panels, rows: &[Moved], numbers: &[Quad], sight: &mut Sight) {
+    let mut rows = rows;
+    for look in &panels.looks {
+        let own;
+        (own, rows) = rows.split_at(4 * look.quads.len());
+        accumulate(&mut sight.free[look.coupling], own, &numbers[look.quads.clone()]);
     }
 }
 
@@ -216,14 +221,16 @@ impl WithSimd for Move<'_> {
         let (gain, ramp_gain) = (&coefficients.gain, &coefficients.ramp_gain);
         motion.advance(simd, gain, ramp_gain);
         motion.advance_others(gain, ramp_gain);
-        for push in &self.panels.pushes {
-            let columns = &coefficients.pushes[push.entries.clone()];
-            motion.push(simd, &push.quads, columns, &self.sight.forces[push.by]);
+        let (panels, sight, turning) = (self.panels, self.sight, self.turning);
+        let mut columns = &coefficients.pushes[..];
+        for push in &panels.pushes {
+            let factors = sight.forces[push.coupling].map(|force| [force; 4]);
+            motion.push(simd, &push.quads, &mut columns, &factors);
         }
-        for response in &self.panels.responses {
-            let columns = &coefficients.responses[response.entries.clone()];
-            let angle = &self.turning.angles[response.by];
-            motion.push(simd, &response.quads, columns, angle);
+        let mut columns = &coefficients.responses[..];
+        for response in &panels.responses {
+            let factors = turning.of_both(response.harmonics);
+            motion.push(simd, &response.quads, &mut columns, &factors);
         }
     }
 }

@@ -16,7 +16,7 @@ pub(super) struct Sight {
     /// Movements without the forces.
     pub(super) free: Vec<Moved>,
     /// Movements.
-    moved: Vec<Moved>,
+    pub(super) moved: Vec<Moved>,
     /// Deflections and rates at the nodes, as laws look at them: the start is known, the others when they are shown.
     pub(super) nodes: [[Vec<f64>; 2]; NODES],
     /// Deflections and rates elsewhere.
@@ -88,29 +88,6 @@ impl Sight {
         }
     }
 
-    /// Deflections of a coupling at both places for comparison, then its rates, in a step of this length.
-    #[inline(always)]
-    pub(super) fn at_checks(&self, coupling: usize, step: f64) -> [[f64; CHECKS]; 2] {
-        let [d0, v0] = self.start(coupling);
-        let Hermite {
-            of_values: [_, of_values @ ..],
-            of_slopes: [of_first, of_last],
-        } = &HERMITE_AT_CHECKS;
-        // Movements, because slopes are differences.
-        let [rate, deflections @ ..] = &self.moved[coupling];
-        let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
-        for (deflection, weights) in deflections.iter().zip(of_values) {
-            add_multiple(&mut values, *deflection, weights);
-        }
-        add_multiple(&mut slopes, v0, of_first);
-        add_multiple(&mut slopes, v0 + rate, of_last);
-        let per_step = 1.0 / step;
-        [
-            [0, 1].map(|i| d0 + (values[i] + step * slopes[i])),
-            [2, 3].map(|i| values[i] * per_step + slopes[i]),
-        ]
-    }
-
     /// Whether the forces at the start are numbers.
     pub(super) fn is_start_finite(&self) -> bool {
         self.forces.iter().all(|forces| forces[0].is_finite())
@@ -130,18 +107,21 @@ impl Sight {
     }
 
     /// Mean over the step of the square of what a monitor watches, by the Lobatto weights 1/12, 5/12, 5/12, 1/12.
+    #[inline(always)]
     pub(super) fn mean_square(&self, monitor: &Monitor) -> f64 {
-        let mean = |[first, second, third, last]: Quad| {
-            (first * first + last * last + 5.0 * (second * second + third * third)) / 12.0
+        let square = |[first, second, third, last]: Quad| {
+            first * first + last * last + 5.0 * (second * second + third * third)
         };
-        let of_motion = |i: usize| {
+        let mut sum = 0.0;
+        for forces in &self.forces[monitor.couplings.clone()] {
+            sum += square(*forces);
+        }
+        for i in monitor.motion.clone() {
             let start = self.nodes[0][0][i];
             let [_, a, b, end] = self.moved[i].map(|moved| start + moved);
-            mean([start, a, b, end])
-        };
-        let forces = self.forces[monitor.couplings.clone()].iter();
-        forces.map(|&forces| mean(forces)).sum::<f64>()
-            + monitor.motion.clone().map(of_motion).sum::<f64>()
+            sum += square([start, a, b, end]);
+        }
+        sum * (1.0 / 12.0)
     }
 }
 
@@ -158,6 +138,29 @@ pub(super) fn rates_at_nodes([rate, a, b, end]: &Moved, per_step: f64) -> Quad {
     add_multiple(&mut rates, (a + b) * per_step, of_inner_values);
     add_multiple(&mut rates, end * per_step, of_last_value);
     rates
+}
+
+/// Deflections of a coupling at both places for comparison, then its rates, in a step of this length: from deflection and rate at the
+/// start, and how it moves.
+#[inline(always)]
+pub(super) fn at_checks([d0, v0]: [f64; 2], moved: &Moved, step: f64) -> [[f64; CHECKS]; 2] {
+    let Hermite {
+        of_values: [_, of_values @ ..],
+        of_slopes: [of_first, of_last],
+    } = &HERMITE_AT_CHECKS;
+    // Movements, because slopes are differences.
+    let [rate, deflections @ ..] = moved;
+    let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
+    for (deflection, weights) in deflections.iter().zip(of_values) {
+        add_multiple(&mut values, *deflection, weights);
+    }
+    add_multiple(&mut slopes, v0, of_first);
+    add_multiple(&mut slopes, v0 + rate, of_last);
+    let per_step = 1.0 / step;
+    [
+        [0, 1].map(|i| d0 + (values[i] + step * slopes[i])),
+        [2, 3].map(|i| values[i] * per_step + slopes[i]),
+    ]
 }
 
 /// moved += rows' values: one row per value.

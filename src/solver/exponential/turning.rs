@@ -11,6 +11,7 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::super::Harmonic;
+use super::lanes::Quad;
 
 /// Steps after which the angles are computed anew.
 const MOST_TURNS: u32 = 64;
@@ -48,6 +49,13 @@ impl Turning {
             let (sine, cosine) = libm::sincos(harmonic.angle(time));
             *angle = [cosine, sine];
         }
+    }
+
+    /// Cosine and sine of the angles of two harmonics, each four times.
+    #[inline(always)]
+    pub(super) fn of_both(&self, harmonics: [usize; 2]) -> [Quad; 4] {
+        let [[a, b], [c, d]] = harmonics.map(|harmonic| self.angles[harmonic]);
+        [[a; 4], [b; 4], [c; 4], [d; 4]]
     }
 
     /// Turns the angles to the end of a step, which is by `excess` longer than the one of the rotations.

@@ -15,6 +15,7 @@
 use super::super::march::{Span, Task};
 use super::super::{Forcing, State};
 use super::kernel::Kernel;
+use super::nodes::larger;
 
 /// The next step is at most so many times longer; its accumulated error grows with the sixth power of that.
 const GROWTH: f64 = 2.0;
@@ -76,30 +77,23 @@ impl Kernel {
             let remembered = (1.0 / decay.max(f64::MIN_POSITIVE)).min(elapsed);
             let steps = (remembered * per_step).max(1.0);
             let scale = (SAFETY * steps).max(1.0) / (reference * task.tolerance);
-            let mut change = 0.0;
+            let (mut largest, mut sum) = (0.0, 0.0);
             for i in monitor.couplings.clone() {
                 let [deflection, rate] = sight.drift[i];
-                change = worse(change, self.nodes.change[i]);
-                change = worse(change, monitor.stiffness * deflection);
-                change = worse(change, monitor.impedance * rate);
+                let hidden = (monitor.stiffness * deflection, monitor.impedance * rate);
+                for change in [self.nodes.change[i], hidden.0, hidden.1] {
+                    largest = larger(largest, change.abs());
+                    sum += change;
+                }
             }
             for i in monitor.motion.clone() {
-                change = worse(change, sight.drift[i][0]);
+                largest = larger(largest, sight.drift[i][0].abs());
+                sum += sight.drift[i][0];
             }
-            worst = worse(worst, scale * change);
+            // A NaN is no larger than anything, but spoils sums.
+            worst = larger(worst, scale * largest) + 0.0 * sum;
         }
         worst
-    }
-}
-
-/// The larger of the sizes of two errors; a NaN is worse than any. The first one is a size.
-#[inline(always)]
-fn worse(worst: f64, one: f64) -> f64 {
-    let one = one.abs();
-    if one <= worst || worst.is_nan() {
-        worst
-    } else {
-        one
     }
 }
 

@@ -179,17 +179,27 @@ pub(super) fn inverse_with_one([a, b, c]: &Square) -> Square {
     let a = [0.0, a[1] + 1.0, a[2], a[3]];
     let b = [0.0, b[1], b[2] + 1.0, b[3]];
     let c = [0.0, c[1], c[2], c[3] + 1.0];
-    let next = |x: &Quad| [0.0, x[2], x[3], x[1]];
-    let cross = |x: &Quad, y: &Quad| -> Quad {
-        let (x_next, y_next) = (next(x), next(y));
-        let turned: Quad = core::array::from_fn(|i| x[i] * y_next[i] - x_next[i] * y[i]);
-        next(&turned)
-    };
     let rows = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
     let determinant = a[1] * rows[0][1] + a[2] * rows[0][2] + a[3] * rows[0][3];
     let scale = 1.0 / determinant;
-    let column = |j: usize| [0.0, rows[0][j], rows[1][j], rows[2][j]].map(|entry| scale * entry);
-    [column(1), column(2), column(3)]
+    let mut inverse = Square::default();
+    for (i, row) in rows.iter().enumerate() {
+        for (column, entry) in inverse.iter_mut().zip(&row[1..]) {
+            column[i + 1] = scale * entry;
+        }
+    }
+    inverse
+}
+
+/// The cross product of the last three numbers of both.
+#[inline(always)]
+fn cross(x: &Quad, y: &Quad) -> Quad {
+    [
+        0.0,
+        x[2] * y[3] - x[3] * y[2],
+        x[3] * y[1] - x[1] * y[3],
+        x[1] * y[2] - x[2] * y[1],
+    ]
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::super::march::Span;
 use super::super::{Forcing, Lines, Piece, Spring, System};
 use super::elimination::{Elimination, Square};
 use super::exchange::{Exchange, Influences, Pair};
-use super::lanes::{Quad, add_multiple, are_finite, subtract_multiple};
+use super::lanes::{Quad, add_multiple, add_product, are_finite, subtract_multiple};
 use super::nodes::{cubic_at_checks, larger};
 use super::polynomials::{CHECK_PLACES, CHECKS, END, HERMITE_SLOPES, NODES, PLACES};
 use super::sight::{Moved, Sight, at_checks, rates_at_nodes};
@@ -20,13 +20,48 @@ pub(super) const MOST_FEEDBACK: f64 = 4.0;
 /// Places where laws are evaluated: the nodes, then those for comparison.
 pub(super) const PLACES_OF_LINES: usize = NODES + CHECKS;
 
+/// How the force of a spring answers to its movement, at the nodes but the first: nothing answers at the start.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Tangents {
+    stiffness: Quad,
+    damping: Quad,
+}
+
+impl Tangents {
+    #[inline(always)]
+    fn of(lines: &Lines<PLACES_OF_LINES>) -> Tangents {
+        let [_, a, b, end, ..] = lines.stiffness;
+        let stiffness = [0.0, a, b, end];
+        let [_, a, b, end, ..] = lines.damping;
+        let damping = [0.0, a, b, end];
+        Tangents { stiffness, damping }
+    }
+
+    /// The forces that come from a movement; `rates` are its rates at the nodes.
+    #[inline(always)]
+    pub(super) fn push(&self, moved: &Moved, rates: &Quad) -> Quad {
+        let mut push = [0.0; 4];
+        add_product(&mut push, &self.stiffness, moved);
+        add_product(&mut push, &self.damping, rates);
+        push
+    }
+
+    /// How the force at the end changes with deflection and rate there. From these alone: differences of forces would leave
+    /// their rounding.
+    #[inline(always)]
+    pub(super) fn change(&self, [deflection, rate]: [f64; 2]) -> f64 {
+        self.stiffness[END] * deflection + self.damping[END] * rate
+    }
+}
+
 /// The equations of one step, with room for them.
 #[derive(Debug, Clone)]
 pub(super) struct Equations {
     elimination: Elimination,
     pairs: Vec<Pair>,
-    /// The lines of all springs.
+    /// The lines of all springs, and their tangents.
     pub(super) lines: Vec<Lines<PLACES_OF_LINES>>,
+    pub(super) tangents: Vec<Tangents>,
     /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
     blocks: Vec<Square>,
 }
@@ -38,6 +73,7 @@ impl Equations {
         Equations {
             pairs: pairs.to_vec(),
             lines: vec![Lines::ZERO; system.springs],
+            tangents: vec![Tangents::default(); system.springs],
             blocks: vec![Square::default(); elimination.blocks()],
             elimination,
         }
@@ -50,6 +86,9 @@ impl Equations {
         let [first, second] = CHECK_PLACES.map(|place| span.at(place));
         let times = [start, a, b, end, first, second];
         forcing.lines_into(times, pieces, &mut self.lines);
+        for (tangents, lines) in self.tangents.iter_mut().zip(&self.lines) {
+            *tangents = Tangents::of(lines);
+        }
         PLACES_OF_LINES as u64
     }
 
@@ -61,7 +100,7 @@ impl Equations {
             return false;
         }
         for (pair, ([known, ..], [rates, ..])) in self.pairs.iter().zip(influences.of_springs()) {
-            let push = push(&self.lines[pair.sensor], known, rates);
+            let push = self.tangents[pair.sensor].push(known, rates);
             let force = sight.forces[pair.actuator][0];
             subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
         }
@@ -71,9 +110,9 @@ impl Equations {
 
     /// The tangents of springs at a node.
     pub(super) fn touch(&mut self, node: usize, tangents: &[Spring]) {
-        for (lines, tangent) in self.lines.iter_mut().zip(tangents) {
-            lines.stiffness[node] = tangent.stiffness;
-            lines.damping[node] = tangent.damping;
+        for (own, spring) in self.tangents.iter_mut().zip(tangents) {
+            own.stiffness[node] = spring.stiffness;
+            own.damping[node] = spring.damping;
         }
     }
 
@@ -111,7 +150,7 @@ impl Equations {
             let free = &sight.free[coupling];
             let mut rates = rates_at_nodes(free, per_step);
             add_multiple(&mut rates, rate, &HERMITE_SLOPES.of_common_slope);
-            let moved = push(lines, free, &rates);
+            let moved = self.tangents[coupling].push(free, &rates);
             sight.forces[coupling] = core::array::from_fn(|node| lines.at(node, deflection, rate) + moved[node]);
         }
     }
@@ -123,8 +162,10 @@ impl Equations {
         let (blocks, filling) = self.blocks.split_at_mut(self.pairs.len());
         let all = self.pairs.iter().zip(influences.of_springs()).zip(blocks);
         for ((pair, ([_, moved @ ..], [_, rates @ ..])), block) in all {
-            let lines = &self.lines[pair.sensor];
-            *block = core::array::from_fn(|node| push(lines, &moved[node], &rates[node]));
+            let tangents = &self.tangents[pair.sensor];
+            for (column, (moved, rates)) in block.iter_mut().zip(moved.iter().zip(rates)) {
+                *column = tangents.push(moved, rates);
+            }
             if pair.actuator == pair.sensor {
                 for column in &*block {
                     for (most, one) in feedback.iter_mut().zip(column) {
@@ -150,24 +191,11 @@ impl Equations {
         }
     }
 
-    /// How the forces at the end change with deflections and rates there. From these alone: differences of forces would leave
-    /// their rounding.
+    /// How the forces at the end change with deflections and rates there.
     #[inline(always)]
     pub(super) fn change(&self, drift: &[[f64; 2]], change: &mut [f64]) {
-        let drift = drift.iter().zip(&self.lines);
-        for (change, ([deflection, rate], lines)) in change.iter_mut().zip(drift) {
-            *change = lines.stiffness[END] * deflection + lines.damping[END] * rate;
+        for (change, (drift, tangents)) in change.iter_mut().zip(drift.iter().zip(&self.tangents)) {
+            *change = tangents.change(*drift);
         }
     }
-}
-
-/// What lines make of a movement at the nodes but the first; `rates` are its rates at the nodes.
-#[inline(always)]
-pub(super) fn push(lines: &Lines<PLACES_OF_LINES>, moved: &Moved, rates: &Quad) -> Quad {
-    let mut push = [0.0; 4];
-    for i in 0..NODES {
-        push[i] = lines.stiffness[i] * moved[i] + lines.damping[i] * rates[i];
-    }
-    push[0] = 0.0;
-    push
 }

@@ -64,11 +64,11 @@ impl Nodes {
         step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let (lines, change) = (&self.equations.lines, &mut self.change);
-        let found = match lines.len() {
-            1 => few::solve::<1>(lines, influences, step, sight, change),
-            2 => few::solve::<2>(lines, influences, step, sight, change),
-            3 => few::solve::<3>(lines, influences, step, sight, change),
+        let (equations, change) = (&self.equations, &mut self.change);
+        let found = match equations.lines.len() {
+            1 => few::solve::<1>(equations, influences, step, sight, change),
+            2 => few::solve::<2>(equations, influences, step, sight, change),
+            3 => few::solve::<3>(equations, influences, step, sight, change),
             _ => None,
         };
         found.unwrap_or_else(|| self.solve_many((exchange, influences), step, sight))

@@ -157,9 +157,16 @@ pub(super) fn at_checks([d0, v0]: [f64; 2], moved: &Moved, step: f64) -> [[f64; 
     add_multiple(&mut slopes, v0, of_first);
     add_multiple(&mut slopes, v0 + rate, of_last);
     let per_step = 1.0 / step;
+    let [first, second, first_slope, second_slope] = values;
     [
-        [0, 1].map(|i| d0 + (values[i] + step * slopes[i])),
-        [2, 3].map(|i| values[i] * per_step + slopes[i]),
+        [
+            d0 + (first + step * slopes[0]),
+            d0 + (second + step * slopes[1]),
+        ],
+        [
+            first_slope * per_step + slopes[2],
+            second_slope * per_step + slopes[3],
+        ],
     ]
 }
 

@@ -34,15 +34,26 @@ pub(super) fn growth(error: f64) -> f64 {
     }
 }
 
-/// To 1e-3: a sixth of the exponent, then Newton's method.
+/// To 2e-3: value = 2^(6 q + r) m with m from 1 to 2.
 fn sixth_root(value: f64) -> f64 {
-    let one = 1.0_f64.to_bits();
-    let mut root = f64::from_bits(one - one / 6 + value.to_bits() / 6);
-    for _ in 0..2 {
-        let square = root * root;
-        root = (5.0 * root + value / (square * square * root)) / 6.0;
-    }
-    root
+    /// 2^(r/6).
+    const PARTS: [f64; 6] = [
+        1.0,
+        1.122_462_048_309_373,
+        1.259_921_049_894_873_2,
+        core::f64::consts::SQRT_2,
+        1.587_401_051_968_199_4,
+        1.781_797_436_280_678_5,
+    ];
+    const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+    let bits = value.to_bits();
+    let exponent = bits >> MANTISSA; // from 2^-1023
+    let power = exponent + 3; // from 2^-1026, a multiple of six
+    let mantissa = f64::from_bits((bits & ((1 << MANTISSA) - 1)) | 1.0_f64.to_bits());
+    // The parabola through the sixth roots of 1, 3/2 and 2.
+    let root = mantissa * (0.226_65 - 0.034_73 * mantissa) + 0.808_08;
+    let whole = f64::from_bits((power / 6 + 1023 - 171) << MANTISSA);
+    root * PARTS[(power % 6) as usize] * whole
 }
 
 impl Kernel {

@@ -103,24 +103,31 @@ impl Elimination {
         self.blocks
     }
 
-    /// Overwrites the right-hand sides with the unknowns, and the blocks. What stands first in every side stays.
+    /// Overwrites the blocks with what [`Self::substitute`] needs.
     #[inline(always)]
-    pub(super) fn solve(&self, blocks: &mut [Square], sides: &mut [Quad]) {
+    pub(super) fn factorize(&self, blocks: &mut [Square]) {
         for pivot in &self.pivots {
-            let own = &mut blocks[pivot.own];
-            let inverse = inverse_with_one(own);
-            *own = inverse;
-            let side = sides[pivot.coupling];
+            let inverse = inverse_with_one(&blocks[pivot.own]);
+            blocks[pivot.own] = inverse;
             for neighbour in &pivot.neighbours {
-                let from_pivot = &blocks[neighbour.from_pivot];
-                let factor = inverse.each_ref().map(|column| product(from_pivot, column));
-                subtract_product(&mut sides[neighbour.coupling], &factor, &side);
+                let factor = times(&blocks[neighbour.from_pivot], &inverse);
+                blocks[neighbour.from_pivot] = factor;
                 for (other, &place) in pivot.neighbours.iter().zip(&neighbour.row) {
                     let to_pivot = blocks[other.to_pivot];
-                    for (column, to_pivot) in blocks[place].iter_mut().zip(&to_pivot) {
-                        subtract_product(column, &factor, to_pivot);
-                    }
+                    subtract_times(&mut blocks[place], &factor, &to_pivot);
                 }
+            }
+        }
+    }
+
+    /// Overwrites the right-hand sides with the unknowns. What stands first in every side stays.
+    #[inline(always)]
+    pub(super) fn substitute(&self, blocks: &[Square], sides: &mut [Quad]) {
+        for pivot in &self.pivots {
+            let side = sides[pivot.coupling];
+            for neighbour in &pivot.neighbours {
+                let factor = &blocks[neighbour.from_pivot];
+                subtract_product(&mut sides[neighbour.coupling], factor, &side);
             }
         }
         for pivot in self.pivots.iter().rev() {
@@ -129,8 +136,7 @@ impl Elimination {
                 let unknowns = &sides[neighbour.coupling];
                 subtract_product(&mut side, &blocks[neighbour.to_pivot], unknowns);
             }
-            let solved = product(&blocks[pivot.own], &side);
-            sides[pivot.coupling] = [side[0], solved[1], solved[2], solved[3]];
+            sides[pivot.coupling] = solved(&blocks[pivot.own], &side);
         }
     }
 }
@@ -155,14 +161,38 @@ fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
     best.map(|(_, coupling)| coupling)
 }
 
-/// Matrix times unknowns.
+/// The unknowns of a coupling by itself, from the inverse of its block. What stands first in the side stays.
 #[inline(always)]
-pub(super) fn product(columns: &Square, [_, x @ ..]: &Quad) -> Quad {
-    let mut sum = [0.0; 4];
-    for (column, x) in columns.iter().zip(x) {
-        add_multiple(&mut sum, *x, column);
+pub(super) fn solved(inverse: &Square, side: &Quad) -> Quad {
+    let mut unknowns = [side[0], 0.0, 0.0, 0.0];
+    add_product(&mut unknowns, inverse, side);
+    unknowns
+}
+
+/// The product of two matrices.
+#[inline(always)]
+pub(super) fn times(one: &Square, two: &Square) -> Square {
+    let mut product = Square::default();
+    for (product, column) in product.iter_mut().zip(two) {
+        add_product(product, one, column);
     }
-    sum
+    product
+}
+
+/// target -= the product of two matrices.
+#[inline(always)]
+pub(super) fn subtract_times(target: &mut Square, one: &Square, two: &Square) {
+    for (target, column) in target.iter_mut().zip(two) {
+        subtract_product(target, one, column);
+    }
+}
+
+/// sum += matrix times unknowns.
+#[inline(always)]
+fn add_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+    for (column, x) in columns.iter().zip(x) {
+        add_multiple(sum, *x, column);
+    }
 }
 
 /// sum -= matrix times unknowns.
@@ -247,7 +277,8 @@ mod tests {
             .map(|one| [9.0, 1.0, one as f64, -0.5 * one as f64])
             .collect();
         let mut unknowns = sides.clone();
-        plan.solve(&mut blocks, &mut unknowns);
+        plan.factorize(&mut blocks);
+        plan.substitute(&blocks, &mut unknowns);
         let mut rest = sides;
         for (rest, unknowns) in rest.iter_mut().zip(&unknowns) {
             for (rest, unknown) in rest[1..].iter_mut().zip(&unknowns[1..]) {

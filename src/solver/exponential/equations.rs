@@ -63,7 +63,7 @@ pub(super) struct Equations {
     pub(super) lines: Vec<Lines<PLACES_OF_LINES>>,
     pub(super) tangents: Vec<Tangents>,
     /// How the sensor's forces depend on the actuator's: for every pair of springs, then for what fills up.
-    blocks: Vec<Square>,
+    pub(super) blocks: Vec<Square>,
 }
 
 impl Equations {
@@ -92,19 +92,33 @@ impl Equations {
         PLACES_OF_LINES as u64
     }
 
-    /// Solves for the forces at the nodes; all couplings are springs. Gives whether they were found.
+    /// Prepares for [`Self::solve`] what does not depend on how couplings move; all of them are springs. Gives whether the step is short
+    /// enough.
     #[inline(always)]
-    pub(super) fn solve(&mut self, influences: &Influences, step: f64, sight: &mut Sight) -> bool {
-        self.let_go(step, sight);
-        if self.set_up(influences) > MOST_FEEDBACK {
-            return false;
+    pub(super) fn prepare(&mut self, influences: &Influences, sight: &mut Sight) -> bool {
+        for (coupling, lines) in self.lines.iter().enumerate() {
+            sight.forces[coupling] = without_movement(lines, sight.start(coupling));
         }
         for (pair, ([known, ..], [rates, ..])) in self.pairs.iter().zip(influences.of_springs()) {
             let push = self.tangents[pair.sensor].push(known, rates);
             let force = sight.forces[pair.actuator][0];
             subtract_multiple(&mut sight.forces[pair.sensor], force, &push);
         }
-        self.elimination.solve(&mut self.blocks, &mut sight.forces);
+        let is_short = self.set_up(influences) <= MOST_FEEDBACK;
+        self.elimination.factorize(&mut self.blocks);
+        is_short
+    }
+
+    /// Solves for the forces at the nodes. Gives whether they are numbers.
+    #[inline(always)]
+    pub(super) fn solve(&mut self, step: f64, sight: &mut Sight) -> bool {
+        let per_step = 1.0 / step;
+        let all = sight.forces.iter_mut().zip(&sight.free).zip(&self.tangents);
+        for ((forces, free), tangents) in all {
+            let push = tangents.push(free, &rates_at_nodes(free, per_step));
+            add_multiple(forces, 1.0, &push);
+        }
+        self.elimination.substitute(&self.blocks, &mut sight.forces);
         are_finite(&sight.forces)
     }
 
@@ -135,23 +149,10 @@ impl Equations {
         for (change, present) in changes.iter_mut().zip(present) {
             subtract_multiple(change, 1.0, present);
         }
-        self.elimination.solve(&mut self.blocks, changes);
+        self.elimination.factorize(&mut self.blocks);
+        self.elimination.substitute(&self.blocks, changes);
         for (change, present) in changes.iter_mut().zip(present) {
             add_multiple(change, 1.0, present);
-        }
-    }
-
-    /// The forces at all nodes if nothing answered to them; those at the start are right.
-    #[inline(always)]
-    fn let_go(&self, step: f64, sight: &mut Sight) {
-        let per_step = 1.0 / step;
-        for (coupling, lines) in self.lines.iter().enumerate() {
-            let [deflection, rate] = sight.start(coupling);
-            let free = &sight.free[coupling];
-            let mut rates = rates_at_nodes(free, per_step);
-            add_multiple(&mut rates, rate, &HERMITE_SLOPES.of_common_slope);
-            let moved = self.tangents[coupling].push(free, &rates);
-            sight.forces[coupling] = core::array::from_fn(|node| lines.at(node, deflection, rate) + moved[node]);
         }
     }
 
@@ -198,4 +199,18 @@ impl Equations {
             *change = tangents.change(*drift);
         }
     }
+}
+
+/// The forces at all nodes if the coupling moved as it does at the start and no further: those that are right at the start.
+#[inline(always)]
+pub(super) fn without_movement(
+    lines: &Lines<PLACES_OF_LINES>,
+    [deflection, rate]: [f64; 2],
+) -> Quad {
+    let mut forces = [0.0; 4];
+    for (node, force) in forces.iter_mut().enumerate() {
+        let rate = rate * HERMITE_SLOPES.of_first_slope[node];
+        *force = lines.at(node, deflection, rate);
+    }
+    forces
 }

@@ -49,29 +49,45 @@ impl Nodes {
         }
     }
 
-    /// Straight laws: draws their lines for a step.
+    /// Straight laws: draws their lines for a step, and prepares to solve for the forces. Gives whether the step is short enough for
+    /// that.
     #[inline(always)]
-    pub(super) fn draw(&mut self, forcing: &impl Forcing, span: Span, pieces: &[Piece]) {
+    pub(super) fn prepare(
+        &mut self,
+        forcing: &impl Forcing,
+        span: Span,
+        pieces: &[Piece],
+        influences: &Influences,
+        sight: &mut Sight,
+    ) -> bool {
         self.evaluations += self.equations.draw(forcing, span, pieces);
+        let equations = &mut self.equations;
+        let is_short = match equations.lines.len() {
+            1 => few::prepare::<1>(equations, influences, sight),
+            2 => few::prepare::<2>(equations, influences, sight),
+            3 => few::prepare::<3>(equations, influences, sight),
+            _ => None,
+        };
+        is_short.unwrap_or_else(|| self.equations.prepare(influences, sight))
     }
 
     /// Straight laws: solves for the forces at the nodes, sees how couplings move under them and looks for errors. Gives whether
-    /// the forces were found.
+    /// the forces are numbers.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
-        (exchange, influences): (&Exchange, &Influences),
+        between: (&Exchange, &Influences),
         step: f64,
         sight: &mut Sight,
     ) -> bool {
         let (equations, change) = (&self.equations, &mut self.change);
-        let found = match equations.lines.len() {
-            1 => few::solve::<1>(equations, influences, step, sight, change),
-            2 => few::solve::<2>(equations, influences, step, sight, change),
-            3 => few::solve::<3>(equations, influences, step, sight, change),
+        let are_found = match equations.lines.len() {
+            1 => few::solve::<1>(equations, between.1, step, sight, change),
+            2 => few::solve::<2>(equations, between.1, step, sight, change),
+            3 => few::solve::<3>(equations, between.1, step, sight, change),
             _ => None,
         };
-        found.unwrap_or_else(|| self.solve_many((exchange, influences), step, sight))
+        are_found.unwrap_or_else(|| self.solve_many(between, step, sight))
     }
 
     /// The same for any number of springs.
@@ -82,14 +98,14 @@ impl Nodes {
         step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let found = self.equations.solve(influences, step, sight);
-        if found {
+        let are_found = self.equations.solve(step, sight);
+        if are_found {
             sight.exert(exchange, influences);
             self.equations.compare(step, sight, &mut self.missing);
             exchange.exert_missing(influences, &self.missing, &mut sight.drift);
             self.equations.change(&sight.drift, &mut self.change);
         }
-        found
+        are_found
     }
 
     /// Any laws: asks them until they answer with the forces that they were asked under. Gives whether these were found; the nodes are

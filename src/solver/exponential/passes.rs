@@ -193,10 +193,12 @@ impl<F: Forcing> WithSimd for SolveLines<'_, F> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> bool {
+        let (nodes, influences) = (self.nodes, &self.ahead.coefficients.influences);
+        // The equations first: while they wait for each other, the CPU looks ahead.
+        let sight = &mut *self.ahead.sight;
+        let is_short = nodes.prepare(self.forcing, self.span, self.pieces, influences, sight);
         self.ahead.look(simd);
-        let between = (self.exchange, &self.ahead.coefficients.influences);
-        self.nodes.draw(self.forcing, self.span, self.pieces);
-        self.nodes.solve(between, self.span.step, self.ahead.sight)
+        is_short && nodes.solve((self.exchange, influences), self.span.step, self.ahead.sight)
     }
 }
 

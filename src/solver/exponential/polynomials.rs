@@ -67,7 +67,7 @@ pub(super) const HERMITE_AT_CHECKS: Hermite = Hermite {
 pub(super) const HERMITE_SLOPES: HermiteSlopes = HermiteSlopes {
     of_inner_values: [0.0, SQRT_5, -SQRT_5, 0.0],
     of_last_value: [0.0, 1.2 - SQRT_5, 1.2 + SQRT_5, 0.0],
-    of_common_slope: [0.0, -1.2, -1.2, 0.0],
+    of_first_slope: [1.0, -0.2, -0.2, 1.0],
     of_more_slope: [0.0, 0.1 * (SQRT_5 - 1.0), -0.1 * (SQRT_5 + 1.0), 1.0],
 };
 
@@ -78,12 +78,12 @@ pub(super) struct Hermite {
     pub(super) of_slopes: [Quad; 2],
 }
 
-/// What the growth of a polynomial's slope from the first node to every other one takes from the growth of its value
-/// to either inner node and to the last, from its first slope, and from the growth of its slope to the last node.
+/// What a polynomial's slopes at the nodes take from the growth of its value to either inner node and to the last, from its first
+/// slope, and from the growth of its slope to the last node.
 pub(super) struct HermiteSlopes {
     pub(super) of_inner_values: Quad,
     pub(super) of_last_value: Quad,
-    pub(super) of_common_slope: Quad,
+    pub(super) of_first_slope: Quad,
     pub(super) of_more_slope: Quad,
 }
 
@@ -168,9 +168,9 @@ mod tests {
             let found = HERMITE_SLOPES.of_inner_values[node]
                 * (growth(values, 1) + growth(values, 2))
                 + HERMITE_SLOPES.of_last_value[node] * growth(values, END)
-                + HERMITE_SLOPES.of_common_slope[node] * slopes[0]
+                + HERMITE_SLOPES.of_first_slope[node] * slopes[0]
                 + HERMITE_SLOPES.of_more_slope[node] * growth(slopes, END);
-            assert!((found - growth(slopes, node)).abs() < 1e-13, "{node}");
+            assert!((found - slopes[node]).abs() < 1e-13, "{node}");
         }
     }
 }

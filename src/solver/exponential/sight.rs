@@ -64,10 +64,10 @@ impl Sight {
         for (coupling, moved) in self.moved.iter().enumerate() {
             let start = [start[0][coupling], start[1][coupling]];
             let mut rates = rates_at_nodes(moved, per_step);
-            add_multiple(&mut rates, start[1], &HERMITE_SLOPES.of_common_slope);
+            add_multiple(&mut rates, start[1], &HERMITE_SLOPES.of_first_slope);
             for (node, shown) in (1..).zip(&mut *others) {
                 shown[0][coupling] = start[0] + moved[node];
-                shown[1][coupling] = start[1] + rates[node];
+                shown[1][coupling] = rates[node];
             }
         }
     }
@@ -125,7 +125,7 @@ impl Sight {
     }
 }
 
-/// How far the rate of a coupling that does not move at the start moves to every node.
+/// The rates at the nodes of a coupling that moves so from rest.
 #[inline(always)]
 pub(super) fn rates_at_nodes([rate, a, b, end]: &Moved, per_step: f64) -> Quad {
     let HermiteSlopes {

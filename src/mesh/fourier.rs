@@ -29,21 +29,29 @@ impl FourierSeries {
 
     /// f(p).
     pub(super) fn value(&self, phase: f64) -> f64 {
-        self.sum(phase, |_, (c, s), (cosine, sine)| c * cosine + s * sine)
+        let [value] = self.sums(phase, |_, pair, turned| [along(pair, turned)]);
+        value
     }
 
     /// df/dp [per period].
     pub(super) fn slope(&self, phase: f64) -> f64 {
-        self.sum(phase, |order, (c, s), (cosine, sine)| {
-            TAU * order * (s * cosine - c * sine)
+        let [_, slope] = self.value_and_slope(phase);
+        slope
+    }
+
+    /// f(p) and df/dp.
+    pub(super) fn value_and_slope(&self, phase: f64) -> [f64; 2] {
+        self.sums(phase, |order, pair, turned| {
+            [along(pair, turned), TAU * order * across(pair, turned)]
         })
     }
 
     /// d2f/dp2 [per period squared].
     pub(super) fn curvature(&self, phase: f64) -> f64 {
-        self.sum(phase, |order, (c, s), (cosine, sine)| {
-            -TAU * order * TAU * order * (c * cosine + s * sine)
-        })
+        let [curvature] = self.sums(phase, |order, pair, turned| {
+            [-TAU * order * TAU * order * along(pair, turned)]
+        });
+        curvature
     }
 
     /// Whether f is zero everywhere.
@@ -70,24 +78,40 @@ impl FourierSeries {
         least - 0.125 * per_order * per_order * amplitudes
     }
 
-    /// The sum over the orders of `term(i, (c_i, s_i), (cos 2 pi i p, sin 2 pi i p))`.
-    fn sum(&self, phase: f64, term: impl Fn(f64, (f64, f64), (f64, f64)) -> f64) -> f64 {
+    /// The sums over the orders of `terms(i, (c_i, s_i), (cos 2 pi i p, sin 2 pi i p))`.
+    fn sums<const N: usize>(
+        &self,
+        phase: f64,
+        terms: impl Fn(f64, (f64, f64), (f64, f64)) -> [f64; N],
+    ) -> [f64; N] {
+        let mut sums = [0.0; N];
         if self.coefficients.is_empty() {
-            return 0.0;
+            return sums;
         }
         let (sine, cosine) = libm::sincos(TAU * (phase - libm::floor(phase)));
         let mut harmonic = (1.0, 0.0);
         let mut order = 0.0;
-        let mut sum = 0.0;
         for &pair in &self.coefficients {
             // The angle of the next order by the addition theorem.
             let (c, s) = harmonic;
             harmonic = (c * cosine - s * sine, s * cosine + c * sine);
             order += 1.0;
-            sum += term(order, pair, harmonic);
+            for (sum, term) in sums.iter_mut().zip(terms(order, pair, harmonic)) {
+                *sum += term;
+            }
         }
-        sum
+        sums
     }
+}
+
+/// c cos + s sin.
+fn along((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> f64 {
+    c * cosine + s * sine
+}
+
+/// The same a quarter turn ahead: s cos - c sin.
+fn across((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> f64 {
+    s * cosine - c * sine
 }
 
 #[cfg(test)]

@@ -47,14 +47,9 @@ impl TransmissionError {
         self.series.is_zero()
     }
 
-    /// e [m] at a mesh phase [pitches].
-    pub fn value(&self, phase: f64) -> f64 {
-        self.series.value(phase)
-    }
-
-    /// de/dp [m per pitch] at a mesh phase [pitches].
-    pub fn slope(&self, phase: f64) -> f64 {
-        self.series.slope(phase)
+    /// e [m] and de/dp [m per pitch] at a mesh phase [pitches].
+    pub fn value_and_slope(&self, phase: f64) -> [f64; 2] {
+        self.series.value_and_slope(phase)
     }
 
     /// d2e/dp2 [m per pitch squared] at a mesh phase [pitches].
@@ -86,8 +81,9 @@ mod tests {
                 slope -= TAU * order as f64 * amplitude * libm::sin(angle(order, phase));
             }
             // Rounding of angles up to 100 rad.
-            assert!((error.value(p) - value).abs() < 1e-13 * 5e-6 * 10.0);
-            assert!((error.slope(p) - slope).abs() < 1e-13 * 5e-6 * 100.0);
+            let [found, found_slope] = error.value_and_slope(p);
+            assert!((found - value).abs() < 1e-13 * 5e-6 * 10.0);
+            assert!((found_slope - slope).abs() < 1e-13 * 5e-6 * 100.0);
         }
         assert!(!error.is_zero() && TransmissionError::default().is_zero());
     }

@@ -7,7 +7,7 @@
 //! ```
 
 use super::inputs::product;
-use super::radial::secant;
+use super::radial::Stiffness;
 use super::{BaseMotion, Bearing, Motion, Rotor};
 use crate::config::Planar;
 use crate::solver::{Reading, Row, System};
@@ -144,7 +144,7 @@ impl Motion<'_> {
         let mut radial = self.model.radial.iter();
         if let Some(radial) = radial.find(|radial| radial.input == input) {
             let [x, y] = displacement;
-            let secant = secant(&radial.force, libm::hypot(x, y));
+            let secant = Stiffness::of(&radial.force, libm::hypot(x, y)).secant;
             force[0] += secant * x;
             force[1] += secant * y;
         }

@@ -9,7 +9,7 @@
 //! (output derivatives).
 
 use super::inputs::product;
-use super::radial::{secant, slope};
+use super::radial::Stiffness;
 use super::tooth_contact::Phase;
 use super::{BaseMotion, Bearing, Inputs, Mesh, Motion};
 use crate::config::TorqueCoupling;
@@ -113,7 +113,7 @@ impl Change<'_> {
         let (motion, mesh) = (&self.motion, &self.motion.model.meshes[index]);
         let (phase, phase_change) = (motion.phase(mesh), self.phase(mesh));
         let (k, k_change) = (mesh.stiffness(phase), self.mesh_stiffness(index));
-        let forces = motion.flank_forces(mesh);
+        let (forces, error) = (motion.flank_forces(mesh), mesh.error_at(phase));
         [0, 1].map(|flank| {
             let absent = flank == 1 && mesh.backlash.is_none();
             let open = mesh.backlash.is_some() && forces[flank] == 0.0;
@@ -123,7 +123,7 @@ impl Change<'_> {
             let row = &motion.model.system.couplings[mesh.couplings.start + flank].row;
             let seen = motion.state.seen(mesh.couplings.start + flank);
             let change = [self.displacement(row), self.velocity(row)];
-            let depth = mesh.compression(flank, phase, seen).depth;
+            let depth = mesh.compression(flank, error, seen).depth;
             let change = mesh.compression_change(flank, phase, phase_change, change);
             k_change * depth + k * change.depth + mesh.damping * change.rate
         })
@@ -194,7 +194,10 @@ impl Change<'_> {
         let Some(radial) = radial.find(|one| one.input == input && radius > 0.0) else {
             return [0.0; 2];
         };
-        let (along, across) = (slope(&radial.force, radius), secant(&radial.force, radius));
+        let Stiffness {
+            slope: along,
+            secant: across,
+        } = Stiffness::of(&radial.force, radius);
         let outward = (x * change[0] + y * change[1]) / (radius * radius);
         [
             across * change[0] + (along - across) * outward * x,

@@ -35,11 +35,36 @@ impl<'a> Excitation<'a> {
         }
     }
 
+    /// Overwrites all forces, and the tangents of springs where these are wanted.
+    fn answer(
+        &self,
+        at: Instant<'_>,
+        pieces: &[Piece],
+        forces: &mut [f64],
+        mut tangents: Option<&mut [Spring]>,
+    ) {
+        for mesh in &self.model.meshes {
+            mesh.forces_into(at, pieces, forces, tangents.as_deref_mut());
+        }
+        if self.model.is_straight {
+            return;
+        }
+        let vibration = self.model.vibration.motion(at.time);
+        let base = |input| self.course.base(input, at.time).plus(&vibration);
+        for bearing in &self.model.radial {
+            let tangents = tangents.as_deref_mut();
+            bearing.forces_into(at, &base(bearing.input), pieces, forces, tangents);
+        }
+        for spin in &self.model.spins {
+            let load = |number: usize| self.loads[number].after(at.time - self.course.since);
+            spin.forces_into(at, load, base, forces);
+        }
+    }
+
     /// Motion of the gearbox at a bearing.
     fn base(&self, input: usize, time: f64) -> BaseMotion {
-        self.course
-            .base(input, time)
-            .plus(&self.model.vibration.motion(time))
+        let vibration = self.model.vibration.motion(time);
+        self.course.base(input, time).plus(&vibration)
     }
 
     /// The bearing whose law has this number.
@@ -128,18 +153,18 @@ impl Forcing for Excitation<'_> {
     }
 
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
-        for mesh in &self.model.meshes {
-            mesh.forces_into(at, pieces, forces);
-        }
-        for bearing in &self.model.radial {
-            let base = self.base(bearing.input, at.time);
-            bearing.forces_into(at, &base, pieces, forces);
-        }
-        for spin in &self.model.spins {
-            let base = |input| self.base(input, at.time);
-            let load = |number: usize| self.loads[number].after(at.time - self.course.since);
-            spin.forces_into(at, load, base, forces);
-        }
+        self.answer(at, pieces, forces, None);
+    }
+
+    fn springs_into(
+        &self,
+        at: Instant<'_>,
+        pieces: &[Piece],
+        forces: &mut [f64],
+        tangents: &mut [Spring],
+    ) {
+        tangents.fill(Spring::default());
+        self.answer(at, pieces, forces, Some(tangents));
     }
 
     fn is_straight(&self) -> bool {
@@ -155,17 +180,6 @@ impl Forcing for Excitation<'_> {
     ) {
         for mesh in &self.model.meshes {
             mesh.lines_into(times, pieces, lines);
-        }
-    }
-
-    fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
-        tangents.fill(Spring::default());
-        for mesh in &self.model.meshes {
-            mesh.tangents_into(at, pieces, tangents);
-        }
-        for bearing in &self.model.radial {
-            let base = self.base(bearing.input, at.time);
-            bearing.tangents_into(at, &base, pieces, tangents);
         }
     }
 

@@ -1,6 +1,6 @@
 //! What the solver's error control watches.
 
-use super::radial::{RadialBearing, secant};
+use super::radial::{RadialBearing, Stiffness};
 use super::spin::Spin;
 use super::{Mesh, Rotor};
 use crate::solver::{Monitor, Row, System};
@@ -90,7 +90,7 @@ fn of_mesh(system: &System, mesh: &Mesh) -> Monitor {
 
 fn of_bearing(system: &System, bearing: &RadialBearing, beside: Vec<usize>) -> Monitor {
     let row = &system.couplings[bearing.first_coupling].row;
-    let k = secant(&bearing.force, bearing.force.clearance + TYPICAL_DEPTH);
+    let k = Stiffness::of(&bearing.force, bearing.force.clearance + TYPICAL_DEPTH).secant;
     let own = k * row.dot_row(row);
     Monitor {
         couplings: bearing.first_coupling..bearing.first_coupling + 2,

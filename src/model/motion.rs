@@ -101,7 +101,8 @@ impl Motion<'_> {
     pub fn mesh_deflection(&self, mesh: usize) -> f64 {
         let mesh = &self.model.meshes[mesh];
         let seen = self.state.seen(mesh.couplings.start);
-        mesh.compression(0, self.phase(mesh), seen).depth
+        let error = mesh.error_at(self.phase(mesh));
+        mesh.compression(0, error, seen).depth
     }
 
     /// F, compression positive, negative where the back flank carries it [N].
@@ -113,13 +114,13 @@ impl Motion<'_> {
     /// Normal force of the reference flank and of the back flank [N].
     pub(super) fn flank_forces(&self, mesh: &Mesh) -> [f64; 2] {
         let phase = self.phase(mesh);
-        let k = mesh.stiffness(phase);
+        let (k, error) = (mesh.stiffness(phase), mesh.error_at(phase));
         [0, 1].map(|flank| {
             if flank == 1 && mesh.backlash.is_none() {
                 return 0.0;
             }
             let seen = self.state.seen(mesh.couplings.start + flank);
-            mesh.flank_force(k, mesh.compression(flank, phase, seen))
+            mesh.flank_force(k, mesh.compression(flank, error, seen))
         })
     }
 

@@ -35,48 +35,32 @@ impl RadialBearing {
         [0, 1].map(|axis| at.deflection[self.first_coupling + axis] - base.displacement[axis])
     }
 
-    /// Overwrites the forces of the two couplings.
+    /// Overwrites the forces of the two couplings, and their tangents where these are wanted.
     pub(super) fn forces_into(
         &self,
         at: Instant<'_>,
         base: &BaseMotion,
         pieces: &[Piece],
         forces: &mut [f64],
+        tangents: Option<&mut [Spring]>,
     ) {
-        let [x, y] = self.relative(at, base);
-        let touching = pieces[self.law].index == TOUCHING;
-        let secant = if touching {
-            secant(&self.force, libm::hypot(x, y))
-        } else {
-            0.0
-        };
-        forces[self.first_coupling] = secant * x;
-        forces[self.first_coupling + 1] = secant * y;
-    }
-
-    /// Overwrites the tangents of the two couplings.
-    pub(super) fn tangents_into(
-        &self,
-        at: Instant<'_>,
-        base: &BaseMotion,
-        pieces: &[Piece],
-        tangents: &mut [Spring],
-    ) {
+        let own = self.first_coupling..self.first_coupling + 2;
+        if pieces[self.law].index == APART {
+            forces[own].fill(0.0);
+            return;
+        }
         let motion = self.relative(at, base);
         let radius = libm::hypot(motion[0], motion[1]);
-        let touching = pieces[self.law].index == TOUCHING && radius > 0.0;
-        for (tangent, part) in tangents[self.first_coupling..][..2].iter_mut().zip(motion) {
+        let Stiffness { secant, slope } = Stiffness::of(&self.force, radius);
+        for (force, part) in forces[own.clone()].iter_mut().zip(motion) {
+            *force = secant * part;
+        }
+        let Some(tangents) = tangents.filter(|_| radius > 0.0) else {
+            return;
+        };
+        for (tangent, part) in tangents[own].iter_mut().zip(motion) {
             let along = (part / radius) * (part / radius);
-            let stiffness = if touching {
-                let (secant, slope) = (secant(&self.force, radius), slope(&self.force, radius));
-                slope * along + secant * (1.0 - along)
-            } else {
-                0.0
-            };
-            *tangent = Spring {
-                stiffness,
-                damping: 0.0,
-            };
+            tangent.stiffness = slope * along + secant * (1.0 - along);
         }
     }
 
@@ -117,22 +101,29 @@ impl RadialBearing {
     }
 }
 
-/// F_r / r [N/m]: what the force is per displacement in its direction.
-pub(super) fn secant(force: &RadialForce, radius: f64) -> f64 {
-    let depth = radius - force.clearance;
-    if depth <= 0.0 {
-        0.0
-    } else {
-        force.coefficient * libm::pow(depth, force.exponent) / radius
-    }
+/// How a radial force answers to a displacement.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stiffness {
+    /// F_r / r [N/m]: what the force is per displacement in its direction.
+    pub(super) secant: f64,
+    /// dF_r/dr [N/m].
+    pub(super) slope: f64,
 }
 
-/// dF_r/dr [N/m].
-pub(super) fn slope(force: &RadialForce, radius: f64) -> f64 {
-    let depth = radius - force.clearance;
-    if depth <= 0.0 {
-        0.0
-    } else {
-        force.coefficient * force.exponent * libm::pow(depth, force.exponent - 1.0)
+impl Stiffness {
+    /// At a distance from the middle [m].
+    pub(super) fn of(force: &RadialForce, radius: f64) -> Stiffness {
+        let depth = radius - force.clearance;
+        if depth <= 0.0 {
+            return Stiffness {
+                secant: 0.0,
+                slope: 0.0,
+            };
+        }
+        let per_depth = force.coefficient * libm::pow(depth, force.exponent - 1.0);
+        Stiffness {
+            secant: per_depth * depth / radius,
+            slope: force.exponent * per_depth,
+        }
     }
 }

@@ -102,12 +102,17 @@ impl Spin {
         let (x, y) = at.deflection[lateral.clone()].split_at(self.n);
         let (vx, vy) = at.rate[lateral.clone()].split_at(self.n);
         let (on_rotor, on_housing) = forces[lateral.start..].split_at_mut(lateral.len());
+        on_rotor.fill(0.0);
         let (on_x, on_y) = on_rotor.split_at_mut(self.n);
         let excess = speed - at.slow[self.rotor];
-        for (i, row) in self.gyroscopic.column_iter().enumerate() {
-            let row = row.as_slice(); // symmetric
-            on_x[i] = excess * dot(row, vy) + acceleration * dot(row, y);
-            on_y[i] = -excess * dot(row, vx) - acceleration * dot(row, x);
+        for (j, column) in self.gyroscopic.column_iter().enumerate() {
+            let by_y = excess * vy[j] + acceleration * y[j];
+            let by_x = excess * vx[j] + acceleration * x[j];
+            let both = on_x.iter_mut().zip(&mut *on_y);
+            for ((on_x, on_y), entry) in both.zip(column.as_slice()) {
+                *on_x += entry * by_y;
+                *on_y -= entry * by_x;
+            }
         }
         let mut push = |shape: &[f64], force: [f64; 2]| {
             for (i, shape) in shape.iter().enumerate() {

@@ -33,12 +33,18 @@ pub trait Forcing {
     fn slack(&self, tolerance: f64) -> f64;
     /// F of every coupling, each law continued smoothly from its piece.
     fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]);
+    /// The same, and for every coupling how its own force depends on its own deflection and rate, as far as that is fast.
+    fn springs_into(
+        &self,
+        at: Instant<'_>,
+        pieces: &[Piece],
+        forces: &mut [f64],
+        tangents: &mut [Spring],
+    );
     /// Whether all forces are straight lines in their own deflection and rate while their pieces last.
     fn is_straight(&self) -> bool;
     /// These lines at some times, for every coupling.
     fn lines_into<const N: usize>(&self, times: [f64; N], pieces: &[Piece], lines: &mut [Lines<N>]);
-    /// For every coupling how its own force depends on its own deflection and rate, as far as that is fast.
-    fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]);
     /// Whether time alone ends pieces.
     fn is_timed(&self) -> bool;
     /// Positive while the motion keeps a law in its piece; infinity where only time ends the piece.

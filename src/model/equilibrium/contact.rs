@@ -8,7 +8,7 @@
 //! end; and a step stops where r has no component along it any more. The load is first freed of what only accelerates
 //! the rotors together.
 
-use super::super::radial::{secant, slope};
+use super::super::radial::Stiffness;
 use super::super::{Inputs, Mesh, ModalModel, RadialBearing};
 use super::NoEquilibrium;
 use super::linear::{Held, StaticSpring, free_rotations};
@@ -131,10 +131,7 @@ impl<'a> Laws<'a> {
             let base = self.inputs.base(bearing.input).displacement;
             let [x, y] = [0, 1].map(|axis| rows[axis].dot(position) - base[axis]);
             let radius = libm::hypot(x, y);
-            let (slope, secant) = (
-                slope(&bearing.force, radius),
-                secant(&bearing.force, radius),
-            );
+            let Stiffness { secant, slope } = Stiffness::of(&bearing.force, radius);
             let outward = if radius > 0.0 {
                 [x / radius, y / radius]
             } else {

@@ -78,21 +78,27 @@ impl Mesh {
         stiffness
     }
 
-    /// Compression of a flank (0 reference, 1 back) from its deflection and rate.
-    pub(super) fn compression(&self, flank: usize, phase: Phase, motion: [f64; 2]) -> Compression {
-        let sign = if flank == 0 { 1.0 } else { -1.0 };
-        let gap = if flank == 0 {
-            0.0
+    /// Transmission error [m] and its rate [m/s].
+    pub(super) fn error_at(&self, phase: Phase) -> [f64; 2] {
+        let [error, slope] = self.error.value_and_slope(phase.value);
+        [error, slope * phase.rate]
+    }
+
+    /// Compression of a flank (0 reference, 1 back) from transmission error and deflection, each with its rate.
+    pub(super) fn compression(
+        &self,
+        flank: usize,
+        error: [f64; 2],
+        motion: [f64; 2],
+    ) -> Compression {
+        let (sign, gap) = if flank == 0 {
+            (1.0, 0.0)
         } else {
-            self.backlash.unwrap_or(0.0)
+            (-1.0, self.backlash.unwrap_or(0.0))
         };
-        let (error, error_rate) = (
-            self.error.value(phase.value),
-            self.error.slope(phase.value) * phase.rate,
-        );
         Compression {
-            depth: motion[0] - sign * error - gap,
-            rate: motion[1] - sign * error_rate,
+            depth: motion[0] - sign * error[0] - gap,
+            rate: motion[1] - sign * error[1],
         }
     }
 
@@ -111,51 +117,11 @@ impl Mesh {
         motion: [f64; 2],
     ) -> Compression {
         let sign = if flank == 0 { 1.0 } else { -1.0 };
-        let slope = self.error.slope(phase.value);
+        let [_, slope] = self.error.value_and_slope(phase.value);
         let curvature = self.error.curvature(phase.value);
         Compression {
             depth: motion[0] - sign * slope * change.value,
             rate: motion[1] - sign * (curvature * change.value * phase.rate + slope * change.rate),
-        }
-    }
-
-    /// Overwrites the force of a coupling as lines, with these stiffnesses in some phases: each flank, or what the torque follows.
-    #[inline(always)]
-    fn line_into<const N: usize>(
-        &self,
-        number: usize,
-        stiffness: [f64; N],
-        phases: impl Fn() -> [Phase; N],
-        pieces: &[Piece],
-        lines: &mut Lines<N>,
-    ) {
-        *lines = Lines {
-            stiffness,
-            damping: [self.damping; N],
-            rest: [0.0; N],
-        };
-        // Without backlash the second coupling follows the rotations alone.
-        let passes_zero = self.backlash.is_none() && (number == 1 || self.error.is_zero());
-        if !passes_zero {
-            self.shift(number, phases(), pieces, lines);
-        }
-    }
-
-    /// Moves the lines of a flank by transmission error and backlash; nothing remains of them where it is open.
-    fn shift<const N: usize>(
-        &self,
-        number: usize,
-        phases: [Phase; N],
-        pieces: &[Piece],
-        lines: &mut Lines<N>,
-    ) {
-        if self.backlash.is_some() && pieces[self.first_law + 1 + number].index == OPEN {
-            *lines = Lines::ZERO;
-            return;
-        }
-        let laws = lines.stiffness.iter().zip(phases);
-        for (rest, (&k, phase)) in lines.rest.iter_mut().zip(laws) {
-            *rest = self.held_force(k, self.compression(number, phase, [0.0; 2]));
         }
     }
 
@@ -177,9 +143,51 @@ impl Mesh {
     ) {
         let phases = times.map(|time| self.phase_at(time).value);
         let stiffness = self.stiffnesses(pieces[self.first_law], phases);
-        for (number, lines) in lines[self.couplings.clone()].iter_mut().enumerate() {
-            let phases = || times.map(|time| self.phase_at(time));
-            self.line_into(number, stiffness, phases, pieces, lines);
+        let phases = || times.map(|time| self.phase_at(time));
+        self.lines_with(
+            stiffness,
+            phases,
+            pieces,
+            &mut lines[self.couplings.clone()],
+        );
+    }
+
+    /// Overwrites the lines of the mesh's couplings with these stiffnesses in some phases: those of each flank, or of what the torque
+    /// follows.
+    #[inline(always)]
+    fn lines_with<const N: usize>(
+        &self,
+        stiffness: [f64; N],
+        phases: impl Fn() -> [Phase; N],
+        pieces: &[Piece],
+        lines: &mut [Lines<N>],
+    ) {
+        for lines in &mut *lines {
+            *lines = Lines {
+                stiffness,
+                damping: [self.damping; N],
+                rest: [0.0; N],
+            };
+        }
+        if self.backlash.is_some() || !self.error.is_zero() {
+            self.shift(phases(), pieces, lines);
+        }
+    }
+
+    /// Moves the lines of the flanks by transmission error and backlash; nothing remains of those of an open one.
+    fn shift<const N: usize>(&self, phases: [Phase; N], pieces: &[Piece], lines: &mut [Lines<N>]) {
+        let errors = phases.map(|phase| self.error_at(phase));
+        // Without backlash the second coupling follows the rotations alone.
+        let flanks = if self.backlash.is_some() { 2 } else { 1 };
+        for (flank, lines) in lines.iter_mut().enumerate().take(flanks) {
+            if self.backlash.is_some() && pieces[self.first_law + 1 + flank].index == OPEN {
+                *lines = Lines::ZERO;
+                continue;
+            }
+            let laws = lines.stiffness.iter().zip(errors);
+            for (rest, (&k, error)) in lines.rest.iter_mut().zip(laws) {
+                *rest = self.held_force(k, self.compression(flank, error, [0.0; 2]));
+            }
         }
     }
 
@@ -195,34 +203,30 @@ impl Mesh {
         k * depth + self.damping * rate
     }
 
-    /// Overwrites the forces of the mesh's couplings.
-    pub(super) fn forces_into(&self, at: Instant<'_>, pieces: &[Piece], forces: &mut [f64]) {
+    /// Overwrites the forces of the mesh's couplings, and their tangents where these are wanted.
+    pub(super) fn forces_into(
+        &self,
+        at: Instant<'_>,
+        pieces: &[Piece],
+        forces: &mut [f64],
+        mut tangents: Option<&mut [Spring]>,
+    ) {
         let phase = self.phase(at);
         let stiffness = self.stiffnesses(pieces[self.first_law], [phase.value]);
-        let mut line = Lines::ZERO;
-        for (number, coupling) in self.couplings.clone().enumerate() {
-            self.line_into(number, stiffness, || [phase], pieces, &mut line);
+        let mut lines = [Lines::ZERO; 2];
+        let lines = &mut lines[..self.couplings.len()];
+        self.lines_with(stiffness, || [phase], pieces, lines);
+        for (coupling, line) in self.couplings.clone().zip(lines) {
             forces[coupling] = line.at(0, at.deflection[coupling], at.rate[coupling]);
+            if let Some(tangents) = &mut tangents {
+                tangents[coupling] = Spring {
+                    stiffness: line.stiffness[0],
+                    damping: line.damping[0],
+                };
+            }
         }
         if let Some(observer) = self.turning {
             forces[observer] = 0.0;
-        }
-    }
-
-    /// Overwrites the tangents of the mesh's couplings.
-    pub(super) fn tangents_into(&self, at: Instant<'_>, pieces: &[Piece], tangents: &mut [Spring]) {
-        let phase = self.phase(at);
-        let stiffness = self.stiffnesses(pieces[self.first_law], [phase.value]);
-        let mut line = Lines::ZERO;
-        for (number, coupling) in self.couplings.clone().enumerate() {
-            self.line_into(number, stiffness, || [phase], pieces, &mut line);
-            tangents[coupling] = Spring {
-                stiffness: line.stiffness[0],
-                damping: line.damping[0],
-            };
-        }
-        if let Some(observer) = self.turning {
-            tangents[observer] = Spring::default();
         }
     }
 
@@ -261,7 +265,7 @@ impl Mesh {
         let k = self.stiffness_in(stiffness, phase);
         let coupling = self.couplings.start + flank;
         let motion = [at.deflection[coupling], at.rate[coupling]];
-        let compression = self.compression(flank, phase, motion);
+        let compression = self.compression(flank, self.error_at(phase), motion);
         let by_force = compression.depth + self.damping / k * compression.rate;
         // Written so that a NaN stays one.
         if compression.depth <= by_force {

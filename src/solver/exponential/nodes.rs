@@ -148,8 +148,8 @@ impl Nodes {
     ) {
         for (node, place) in PLACES.into_iter().enumerate().skip(1) {
             let at = instant(&sight.nodes[node], span.at(place), slow);
-            task.forcing.forces_into(at, pieces, &mut sight.present);
-            task.forcing.tangents_into(at, pieces, &mut self.tangents);
+            let (present, tangents) = (&mut sight.present, &mut self.tangents);
+            task.forcing.springs_into(at, pieces, present, tangents);
             self.equations.touch(node, &self.tangents);
             for (answers, &present) in self.answers.iter_mut().zip(&sight.present) {
                 answers[node] = present;

@@ -235,8 +235,8 @@ impl Kernel {
                 rate: &self.present[1],
                 slow,
             };
-            task.forcing.forces_into(at, pieces, &mut self.change);
-            task.forcing.tangents_into(at, pieces, &mut self.tangents);
+            let (change, tangents) = (&mut self.change, &mut self.tangents);
+            task.forcing.springs_into(at, pieces, change, tangents);
             self.evaluations += 1;
             let sizes = self.change.iter().map(|force| force.abs());
             let largest = sizes.fold(0.0, f64::max);

@@ -3,6 +3,9 @@
 /// Breakpoints that need not be met exactly are met on this many parts of the call: so few lengths of steps occur, whatever
 /// the period of the laws.
 const PARTS: f64 = 64.0;
+/// Whatever is left of some of these parts after some of their equal steps (at most 24, or 48) is a whole number of so many parts
+/// of one.
+const FRACTIONS: f64 = 48.0;
 
 /// Equal parts of a call.
 #[derive(Debug, Clone, Copy)]
@@ -30,11 +33,12 @@ impl Grid {
         self.start + nearest_integer((time - self.start) / self.width) * self.width
     }
 
-    /// A length without rounding, where it is one of the grid. Any other one is kept as it is: the motion would otherwise fall
-    /// behind time.
+    /// A length without rounding, where it is one of the grid or what steps have left of one. Any other one is kept as it is: the
+    /// motion would otherwise fall behind time.
     pub(super) fn length(&self, length: f64) -> f64 {
-        let parts = nearest_integer(length / self.width);
-        let exact = parts * self.width;
+        let fraction = self.width / FRACTIONS;
+        let parts = nearest_integer(length / fraction);
+        let exact = parts * fraction;
         if parts >= 1.0 && (length - exact).abs() <= self.rounding {
             exact
         } else {
@@ -76,6 +80,9 @@ mod tests {
         let grid = Grid::over(10.0, 10.0 + 2e-5);
         let (one, two) = (grid.near(10.0 + 3.1e-6), grid.near(10.0 + 1.27e-5));
         assert_eq!(grid.length(two - one), 31.0 * grid.width);
+        // Of seven parts in two steps one step is left.
+        let half = grid.length(0.5 * (grid.near(10.0 + 5.0 / 64.0 * 2e-5) - 10.0));
+        assert!((half / grid.width - 2.5).abs() < 4.0 * f64::EPSILON, "{half:e}");
         // A picosecond beside the grid is no rounding.
         for other in [3.3 * grid.width, 3.0 * grid.width + 1e-12] {
             assert_eq!(grid.length(other), other);

@@ -24,7 +24,7 @@ const MOST_SAID: f64 = 2.0;
 /// The rest of a stretch is planned anew where steps could be this many times longer.
 const WORTH_A_PLAN: f64 = 1.4;
 /// A stretch begins with a guess of this part of it.
-const FIRST_STEP: f64 = 1.0 / 16.0;
+const FIRST_STEP: f64 = 1.0 / 4.0;
 /// No step makes up for more than this part of itself, where the motion is ahead of time or behind.
 const MADE_UP: f64 = 1e-3;
 

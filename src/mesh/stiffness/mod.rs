@@ -213,11 +213,16 @@ impl StiffnessLaw {
                 let PairSum { middle, sum } = &pieces[piece];
                 sum.values(cycles.map(|cycle| cycle - middle))
             }
-            Shape::ToothGeometry(ref law) => cycles.map(|cycle| {
-                self.places(law.contact_ratio(), cycle, piece)
-                    .map(|x| law.value(x))
-                    .sum()
-            }),
+            Shape::ToothGeometry(ref law) => {
+                let mut sums = [0.0; N];
+                for pair in 0..engaged(law.contact_ratio(), middle(&self.starts, piece)) {
+                    let one = law.values(cycles.map(|cycle| cycle + pair as f64));
+                    for (sum, one) in sums.iter_mut().zip(one) {
+                        *sum += one;
+                    }
+                }
+                sums
+            }
         }
     }
 
@@ -231,17 +236,11 @@ impl StiffnessLaw {
                 let PairSum { middle, sum } = &pieces[piece];
                 sum.slope(cycle - middle)
             }
-            Shape::ToothGeometry(ref law) => self
-                .places(law.contact_ratio(), cycle, piece)
-                .map(|x| law.slope(x))
-                .sum(),
+            Shape::ToothGeometry(ref law) => {
+                let pairs = 0..engaged(law.contact_ratio(), middle(&self.starts, piece));
+                pairs.map(|pair| law.slope(cycle + pair as f64)).sum()
+            }
         }
-    }
-
-    /// Where in their contact [pitches] the pairs are that a piece engages.
-    fn places(&self, contact_ratio: f64, cycle: f64, piece: usize) -> impl Iterator<Item = f64> {
-        let pairs = engaged(contact_ratio, middle(&self.starts, piece));
-        (0..pairs).map(move |j| cycle + j as f64)
     }
 }
 

@@ -67,15 +67,19 @@ impl PairStiffness {
         self.contact_ratio
     }
 
-    /// Stiffness [N/m] at x pitches along the path of contact, 0 <= x <= eps.
-    pub fn value(&self, x: f64) -> f64 {
+    /// Stiffness [N/m] at some places along the path of contact [pitches], 0 <= x <= eps. Each waits for itself at every coefficient:
+    /// several together take no longer than one.
+    #[inline(always)] // into the loops over states, with their vectors
+    pub fn values<const N: usize>(&self, places: [f64; N]) -> [f64; N] {
         // Clenshaw's recurrence.
-        let t = 2.0 * x / self.contact_ratio - 1.0;
-        let (mut one, mut two) = (0.0, 0.0);
+        let t = places.map(|x| 2.0 * x / self.contact_ratio - 1.0);
+        let (mut one, mut two) = ([0.0; N], [0.0; N]);
         for &coefficient in self.coefficients.iter().skip(1).rev() {
-            (one, two) = (coefficient + 2.0 * t * one - two, one);
+            for i in 0..N {
+                (one[i], two[i]) = (coefficient + 2.0 * t[i] * one[i] - two[i], one[i]);
+            }
         }
-        self.coefficients[0] + t * one - two
+        core::array::from_fn(|i| self.coefficients[0] + t[i] * one[i] - two[i])
     }
 
     /// dk/dx [N/m per pitch].

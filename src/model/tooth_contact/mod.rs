@@ -253,26 +253,29 @@ impl Mesh {
         }
         if self.backlash.is_some() {
             for flank in [0, 1] {
-                let closed = self.contact_margin(flank, pieces[self.first_law], start) > 0.0;
+                let stiffness = pieces[self.first_law];
+                let closed = self.contact_margin(flank, |_| stiffness, start) > 0.0;
                 pieces[self.first_law + 1 + flank].index = if closed { CLOSED } else { OPEN };
             }
         }
     }
 
-    /// Positive where a flank is pressed together and would push: in metres.
-    fn contact_margin(&self, flank: usize, stiffness: Piece, at: Instant<'_>) -> f64 {
+    /// Positive where a flank is pressed together and would push: in metres. Only the force of a flank that is being relieved depends
+    /// on the piece of the stiffness.
+    fn contact_margin(
+        &self,
+        flank: usize,
+        stiffness: impl Fn(Phase) -> Piece,
+        at: Instant<'_>,
+    ) -> f64 {
         let phase = self.phase(at);
-        let k = self.stiffness_in(stiffness, phase);
         let coupling = self.couplings.start + flank;
         let motion = [at.deflection[coupling], at.rate[coupling]];
-        let compression = self.compression(flank, self.error_at(phase), motion);
-        let by_force = compression.depth + self.damping / k * compression.rate;
-        // Written so that a NaN stays one.
-        if compression.depth <= by_force {
-            compression.depth
-        } else {
-            by_force
+        let Compression { depth, rate } = self.compression(flank, self.error_at(phase), motion);
+        if rate >= 0.0 {
+            return depth; // the damper pushes, too
         }
+        depth + self.damping / self.stiffness_in(stiffness(phase), phase) * rate
     }
 
     /// Whether time alone ends pieces of its laws.
@@ -291,7 +294,7 @@ impl Mesh {
             return (cycle - start).min(end - cycle);
         }
         // The stiffness that the contact is judged with: at its breakpoints the contact is entered anew.
-        let stiffness = piece_of(&self.law, self.phase(at).value);
+        let stiffness = |phase: Phase| piece_of(&self.law, phase.value);
         let margin = self.contact_margin(law - 1, stiffness, at);
         if piece.index == CLOSED {
             margin

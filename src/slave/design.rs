@@ -52,40 +52,11 @@ impl Design {
         variables.get(index).ok_or_else(|| unknown(reference))
     }
 
-    /// Whether all these references are of variables.
-    pub(super) fn knows(&self, references: &[u32]) -> bool {
-        let count = self.places.len();
-        let known = |&reference: &u32| usize::try_from(reference).is_ok_and(|index| index < count);
-        // All of them in one go, so that the loop has a single end.
-        let known = references.iter().map(known);
-        known.fold(true, |all, one| all & one)
-    }
-
     /// Where the value of a variable stands ready; nowhere for unknown ones, too.
     #[inline]
     pub(super) fn place(&self, reference: u32) -> Place {
         let index = usize::try_from(reference).unwrap_or(usize::MAX);
         self.places.get(index).copied().unwrap_or(Place::Nowhere)
-    }
-
-    /// What a variable stands for.
-    pub(super) fn quantity(&self, reference: u32) -> Quantity {
-        self.interface.variables[reference as usize].quantity
-    }
-
-    /// What is set from outside, or follows from such parameters alone; `None` for what is computed.
-    pub(super) fn given(
-        &self,
-        reference: u32,
-        config: &mut Config,
-        inputs: &Inputs,
-    ) -> Option<f64> {
-        match (self.place(reference), self.quantity(reference)) {
-            (Place::Input(place), _) => Some(inputs.values()[place as usize]),
-            (_, Quantity::Parameter(parameter)) => Some(*parameter.slot(config)),
-            (_, Quantity::DerivedSpeed { rotor, .. }) => Some(config.rotors[rotor].speed),
-            _ => None,
-        }
     }
 
     /// These torques, and nothing else from outside.

@@ -1,6 +1,7 @@
 //! Values in and out: what references stand for, and which of them may be set when.
 
 use super::{Error, LifeCycle, Slave};
+use crate::config::Config;
 use crate::interface::{Causality, Parameter, Place, Quantity};
 use crate::simulation::Simulation;
 
@@ -8,33 +9,28 @@ impl Slave {
     /// fmi2GetReal: overwrites `values`, one per reference. Parameters and inputs are readable from the
     /// start, everything else from initialization on.
     pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
-        let runs = self.simulation.is_some() && self.life_cycle != LifeCycle::Instantiated;
-        if !(runs && self.design.knows(references)) {
+        if self.simulation.is_none() || self.life_cycle == LifeCycle::Instantiated {
             self.check_readable(references)?;
         }
-        let Some(running) = &self.simulation else {
-            for (&reference, value) in references.iter().zip(values) {
-                let given = self.design.given(reference, &mut self.config, &self.inputs);
-                *value = given.unwrap_or(f64::NAN);
-            }
-            return Ok(());
-        };
-        let (mut bearing_forces, mut motion) = ([].as_slice(), None); // looked at when first asked for
+        let running = self.simulation.as_ref();
+        let (mut bearing_forces, mut motion) = (None, None); // looked at when first asked for
         for (&reference, value) in references.iter().zip(values) {
-            *value = match self.design.place(reference) {
-                Place::BearingForce(place) => {
-                    if bearing_forces.is_empty() {
-                        bearing_forces = running.bearing_forces().as_flattened();
-                    }
-                    bearing_forces[place as usize]
+            *value = match (self.design.place(reference), running) {
+                (Place::Input(place), _) => self.inputs.values()[place as usize],
+                (Place::BearingForce(place), Some(running)) => {
+                    let forces = || running.bearing_forces().as_flattened();
+                    bearing_forces.get_or_insert_with(forces)[place as usize]
                 }
-                _ => match self.design.given(reference, &mut self.config, &self.inputs) {
-                    Some(given) => given,
-                    None => {
-                        let motion = motion.get_or_insert_with(|| running.motion());
-                        self.design.quantity(reference).evaluate(motion)
+                _ => {
+                    let quantity = self.design.variable(reference)?.quantity;
+                    match (given(quantity, &mut self.config), running) {
+                        (Some(given), _) => given,
+                        (None, Some(running)) => {
+                            quantity.evaluate(motion.get_or_insert_with(|| running.motion()))
+                        }
+                        (None, None) => f64::NAN,
                     }
-                },
+                }
             };
         }
         Ok(())
@@ -144,5 +140,14 @@ impl Slave {
             self.tolerance_set |= parameter == Parameter::Tolerance;
         }
         Ok(())
+    }
+}
+
+/// What is a parameter or follows from some alone; `None` for inputs and what is computed.
+fn given(quantity: Quantity, config: &mut Config) -> Option<f64> {
+    match quantity {
+        Quantity::Parameter(parameter) => Some(*parameter.slot(config)),
+        Quantity::DerivedSpeed { rotor, .. } => Some(config.rotors[rotor].speed),
+        _ => None,
     }
 }

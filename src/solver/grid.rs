@@ -82,7 +82,10 @@ mod tests {
         assert_eq!(grid.length(two - one), 31.0 * grid.width);
         // Of seven parts in two steps one step is left.
         let half = grid.length(0.5 * (grid.near(10.0 + 5.0 / 64.0 * 2e-5) - 10.0));
-        assert!((half / grid.width - 2.5).abs() < 4.0 * f64::EPSILON, "{half:e}");
+        assert!(
+            (half / grid.width - 2.5).abs() < 4.0 * f64::EPSILON,
+            "{half:e}"
+        );
         // A picosecond beside the grid is no rounding.
         for other in [3.3 * grid.width, 3.0 * grid.width + 1e-12] {
             assert_eq!(grid.length(other), other);

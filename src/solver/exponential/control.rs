@@ -92,7 +92,7 @@ impl Kernel {
             for i in monitor.couplings.clone() {
                 let [deflection, rate] = sight.drift[i];
                 let hidden = (monitor.stiffness * deflection, monitor.impedance * rate);
-                for change in [self.nodes.change[i], hidden.0, hidden.1] {
+                for change in [sight.change[i], hidden.0, hidden.1] {
                     largest = larger(largest, change.abs());
                     sum += change;
                 }

@@ -86,10 +86,16 @@ impl Equations {
         let [first, second] = CHECK_PLACES.map(|place| span.at(place));
         let times = [start, a, b, end, first, second];
         forcing.lines_into(times, pieces, &mut self.lines);
+        self.take_tangents();
+        PLACES_OF_LINES as u64
+    }
+
+    /// Takes the tangents from the lines.
+    #[inline(always)]
+    pub(super) fn take_tangents(&mut self) {
         for (tangents, lines) in self.tangents.iter_mut().zip(&self.lines) {
             *tangents = Tangents::of(lines);
         }
-        PLACES_OF_LINES as u64
     }
 
     /// Prepares for [`Self::solve`] what does not depend on how couplings move; all of them are springs. Gives whether the step is short
@@ -181,12 +187,12 @@ impl Equations {
 
     /// The forces on the lines at the checks, less those of the cubics.
     #[inline(always)]
-    pub(super) fn compare(&self, step: f64, sight: &Sight, missing: &mut [[f64; CHECKS]]) {
-        let all = missing.iter_mut().zip(&self.lines).zip(&sight.forces);
-        for (coupling, ((missing, lines), forces)) in all.enumerate() {
-            let [deflections, rates] = at_checks(sight.start(coupling), &sight.moved[coupling], step);
-            let cubic = cubic_at_checks(forces);
-            *missing = core::array::from_fn(|check| {
+    pub(super) fn compare(&self, step: f64, sight: &mut Sight) {
+        for (coupling, lines) in self.lines.iter().enumerate() {
+            let [deflections, rates] =
+                at_checks(sight.start(coupling), &sight.moved[coupling], step);
+            let cubic = cubic_at_checks(&sight.forces[coupling]);
+            sight.missing[coupling] = core::array::from_fn(|check| {
                 lines.at(NODES + check, deflections[check], rates[check]) - cubic[check]
             });
         }
@@ -194,8 +200,9 @@ impl Equations {
 
     /// How the forces at the end change with deflections and rates there.
     #[inline(always)]
-    pub(super) fn change(&self, drift: &[[f64; 2]], change: &mut [f64]) {
-        for (change, (drift, tangents)) in change.iter_mut().zip(drift.iter().zip(&self.tangents)) {
+    pub(super) fn change(&self, sight: &mut Sight) {
+        let drift = sight.drift.iter().zip(&self.tangents);
+        for (change, (drift, tangents)) in sight.change.iter_mut().zip(drift) {
             *change = tangents.change(*drift);
         }
     }

@@ -152,7 +152,9 @@ impl Influences {
     pub(super) fn complete(&mut self, h: f64) {
         let per_step = 1.0 / h;
         for (rates, influence) in self.rates.iter_mut().zip(&self.of_pairs) {
-            *rates = influence.each_ref().map(|moved| rates_at_nodes(moved, per_step));
+            *rates = influence
+                .each_ref()
+                .map(|moved| rates_at_nodes(moved, per_step));
         }
     }
 }

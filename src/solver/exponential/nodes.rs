@@ -28,10 +28,6 @@ pub(super) struct Nodes {
     /// What laws answer to the present forces at the nodes, and their tangents at one of them.
     answers: Vec<Quad>,
     tangents: Vec<Spring>,
-    /// What the cubic leaves out of the forces at the checks.
-    missing: Vec<[f64; CHECKS]>,
-    /// How the forces at the end change with that.
-    pub(super) change: Vec<f64>,
     /// Evaluations of all forces.
     pub(super) evaluations: u64,
 }
@@ -43,8 +39,6 @@ impl Nodes {
             equations: Equations::new(system, exchange),
             answers: vec![[0.0; NODES]; couplings],
             tangents: vec![Spring::default(); couplings],
-            missing: vec![[0.0; CHECKS]; couplings],
-            change: vec![0.0; couplings],
             evaluations: 0,
         }
     }
@@ -80,11 +74,11 @@ impl Nodes {
         step: f64,
         sight: &mut Sight,
     ) -> bool {
-        let (equations, change) = (&self.equations, &mut self.change);
+        let equations = &self.equations;
         let are_found = match equations.lines.len() {
-            1 => few::solve::<1>(equations, between.1, step, sight, change),
-            2 => few::solve::<2>(equations, between.1, step, sight, change),
-            3 => few::solve::<3>(equations, between.1, step, sight, change),
+            1 => few::solve::<1>(equations, between.1, step, sight),
+            2 => few::solve::<2>(equations, between.1, step, sight),
+            3 => few::solve::<3>(equations, between.1, step, sight),
             _ => None,
         };
         are_found.unwrap_or_else(|| self.solve_many(between, step, sight))
@@ -101,9 +95,9 @@ impl Nodes {
         let are_found = self.equations.solve(step, sight);
         if are_found {
             sight.exert(exchange, influences);
-            self.equations.compare(step, sight, &mut self.missing);
-            exchange.exert_missing(influences, &self.missing, &mut sight.drift);
-            self.equations.change(&sight.drift, &mut self.change);
+            self.equations.compare(step, sight);
+            exchange.exert_missing(influences, &sight.missing, &mut sight.drift);
+            self.equations.change(sight);
         }
         are_found
     }
@@ -171,7 +165,7 @@ impl Nodes {
         settled
     }
 
-    /// What the cubic leaves out at the checks, and how that would change deflections, rates (`sight.drift`) and forces at
+    /// What the cubic leaves out at the checks, and how that would change deflections, rates and forces at
     /// the end.
     pub(super) fn look_for_errors<F: Forcing>(
         &mut self,
@@ -182,17 +176,17 @@ impl Nodes {
         sight: &mut Sight,
     ) {
         self.compare(task, (span, slow), pieces, sight);
-        exchange.exert_missing(influences, &self.missing, &mut sight.drift);
+        exchange.exert_missing(influences, &sight.missing, &mut sight.drift);
         let [deflection, rate] = &sight.nodes[END];
         for (coupling, drift) in sight.drift.iter().enumerate() {
             sight.trial[0][coupling] = deflection[coupling] + drift[0];
             sight.trial[1][coupling] = rate[coupling] + drift[1];
         }
         let at = instant(&sight.trial, span.end, slow);
-        task.forcing.forces_into(at, pieces, &mut self.change);
+        task.forcing.forces_into(at, pieces, &mut sight.change);
         self.evaluations += 1;
         // The answers: forces are settled up to their accuracy only.
-        for (change, answers) in self.change.iter_mut().zip(&self.answers) {
+        for (change, answers) in sight.change.iter_mut().zip(&self.answers) {
             *change -= answers[END];
         }
     }
@@ -206,7 +200,7 @@ impl Nodes {
         sight: &mut Sight,
     ) {
         for (check, place) in CHECK_PLACES.into_iter().enumerate() {
-            for coupling in 0..self.missing.len() {
+            for coupling in 0..sight.missing.len() {
                 let start = sight.start(coupling);
                 let seen = at_checks(start, &sight.moved[coupling], span.step);
                 for (trial, seen) in sight.trial.iter_mut().zip(seen) {
@@ -217,7 +211,7 @@ impl Nodes {
             task.forcing.forces_into(at, pieces, &mut sight.present);
             self.evaluations += 1;
             let forces = sight.present.iter().zip(&sight.forces);
-            for (missing, (present, forces)) in self.missing.iter_mut().zip(forces) {
+            for (missing, (present, forces)) in sight.missing.iter_mut().zip(forces) {
                 missing[check] = present - cubic_at_checks(forces)[check];
             }
         }

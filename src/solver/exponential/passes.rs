@@ -184,7 +184,11 @@ fn look(panels: &Panels, rows: &[Moved], numbers: &[Quad], sight: &mut Sight) {
     for look in &panels.looks {
         let own;
         (own, rows) = rows.split_at(4 * look.quads.len());
-        accumulate(&mut sight.free[look.coupling], own, &numbers[look.quads.clone()]);
+        accumulate(
+            &mut sight.free[look.coupling],
+            own,
+            &numbers[look.quads.clone()],
+        );
     }
 }
 
@@ -198,7 +202,12 @@ impl<F: Forcing> WithSimd for SolveLines<'_, F> {
         let sight = &mut *self.ahead.sight;
         let is_short = nodes.prepare(self.forcing, self.span, self.pieces, influences, sight);
         self.ahead.look(simd);
-        is_short && nodes.solve((self.exchange, influences), self.span.step, self.ahead.sight)
+        is_short
+            && nodes.solve(
+                (self.exchange, influences),
+                self.span.step,
+                self.ahead.sight,
+            )
     }
 }
 

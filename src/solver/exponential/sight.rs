@@ -21,10 +21,14 @@ pub(super) struct Sight {
     pub(super) nodes: [[Vec<f64>; 2]; NODES],
     /// Deflections and rates elsewhere.
     pub(super) trial: [Vec<f64>; 2],
-    /// How deflections and rates at the end would change with what the cubics leave out of the forces.
-    pub(super) drift: Vec<[f64; 2]>,
     /// Forces at the nodes.
     pub(super) forces: Vec<Quad>,
+    /// What the cubics leave out of the forces at the checks.
+    pub(super) missing: Vec<[f64; CHECKS]>,
+    /// How deflections and rates at the end would change with that.
+    pub(super) drift: Vec<[f64; 2]>,
+    /// How the forces at the end would change with that.
+    pub(super) change: Vec<f64>,
     /// Forces at one instant.
     pub(super) present: Vec<f64>,
 }
@@ -38,8 +42,10 @@ impl Sight {
             moved: still,
             nodes: core::array::from_fn(|_| pair()),
             trial: pair(),
-            drift: vec![[0.0; 2]; couplings],
             forces: vec![[0.0; NODES]; couplings],
+            missing: vec![[0.0; CHECKS]; couplings],
+            drift: vec![[0.0; 2]; couplings],
+            change: vec![0.0; couplings],
             present: vec![0.0; couplings],
         }
     }

@@ -6,6 +6,8 @@
 
 use core::f64::consts::TAU;
 
+use super::turn::turned;
+
 /// The series, without a mean.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct FourierSeries {
@@ -29,26 +31,34 @@ impl FourierSeries {
 
     /// f(p).
     pub(super) fn value(&self, phase: f64) -> f64 {
-        let [value] = self.sums(phase, |_, pair, turned| [along(pair, turned)]);
-        value
+        let [values] = self.values([phase]);
+        values
+    }
+
+    /// f(p) at some phases.
+    #[inline(always)] // into the loops over states, with their vectors
+    pub(super) fn values<const N: usize>(&self, phases: [f64; N]) -> [f64; N] {
+        let [values] = self.sums(phases, |_, pair, turned| [along(pair, turned)]);
+        values
     }
 
     /// df/dp [per period].
     pub(super) fn slope(&self, phase: f64) -> f64 {
-        let [_, slope] = self.value_and_slope(phase);
+        let [_, [slope]] = self.values_and_slopes([phase]);
         slope
     }
 
-    /// f(p) and df/dp.
-    pub(super) fn value_and_slope(&self, phase: f64) -> [f64; 2] {
-        self.sums(phase, |order, pair, turned| {
+    /// f(p) at some phases, and df/dp.
+    #[inline(always)] // into the loops over states, with their vectors
+    pub(super) fn values_and_slopes<const N: usize>(&self, phases: [f64; N]) -> [[f64; N]; 2] {
+        self.sums(phases, |order, pair, turned| {
             [along(pair, turned), TAU * order * across(pair, turned)]
         })
     }
 
     /// d2f/dp2 [per period squared].
     pub(super) fn curvature(&self, phase: f64) -> f64 {
-        let [curvature] = self.sums(phase, |order, pair, turned| {
+        let [[curvature]] = self.sums([phase], |order, pair, turned| {
             [-TAU * order * TAU * order * along(pair, turned)]
         });
         curvature
@@ -78,26 +88,31 @@ impl FourierSeries {
         least - 0.125 * per_order * per_order * amplitudes
     }
 
-    /// The sums over the orders of `terms(i, (c_i, s_i), (cos 2 pi i p, sin 2 pi i p))`.
-    fn sums<const N: usize>(
+    /// The sums over the orders of `terms(i, (c_i, s_i), (cos 2 pi i p, sin 2 pi i p))` at some phases.
+    #[inline(always)]
+    fn sums<const N: usize, const TERMS: usize>(
         &self,
-        phase: f64,
-        terms: impl Fn(f64, (f64, f64), (f64, f64)) -> [f64; N],
-    ) -> [f64; N] {
-        let mut sums = [0.0; N];
+        phases: [f64; N],
+        terms: impl Fn(f64, (f64, f64), (f64, f64)) -> [f64; TERMS],
+    ) -> [[f64; N]; TERMS] {
+        let mut sums = [[0.0; N]; TERMS];
         if self.coefficients.is_empty() {
             return sums;
         }
-        let (sine, cosine) = libm::sincos(TAU * (phase - libm::floor(phase)));
-        let mut harmonic = (1.0, 0.0);
+        let (cosine, sine) = turned(phases);
+        let (mut cosines, mut sines) = ([1.0; N], [0.0; N]);
         let mut order = 0.0;
         for &pair in &self.coefficients {
-            // The angle of the next order by the addition theorem.
-            let (c, s) = harmonic;
-            harmonic = (c * cosine - s * sine, s * cosine + c * sine);
             order += 1.0;
-            for (sum, term) in sums.iter_mut().zip(terms(order, pair, harmonic)) {
-                *sum += term;
+            for i in 0..N {
+                // The angle of the next order by the addition theorem.
+                let (c, s) = (cosines[i], sines[i]);
+                cosines[i] = c * cosine[i] - s * sine[i];
+                sines[i] = s * cosine[i] + c * sine[i];
+                let terms = terms(order, pair, (cosines[i], sines[i]));
+                for (sums, term) in sums.iter_mut().zip(terms) {
+                    sums[i] += term;
+                }
             }
         }
         sums
@@ -105,11 +120,13 @@ impl FourierSeries {
 }
 
 /// c cos + s sin.
+#[inline(always)]
 fn along((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> f64 {
     c * cosine + s * sine
 }
 
 /// The same a quarter turn ahead: s cos - c sin.
+#[inline(always)]
 fn across((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> f64 {
     s * cosine - c * sine
 }

@@ -47,9 +47,10 @@ impl TransmissionError {
         self.series.is_zero()
     }
 
-    /// e [m] and de/dp [m per pitch] at a mesh phase [pitches].
-    pub fn value_and_slope(&self, phase: f64) -> [f64; 2] {
-        self.series.value_and_slope(phase)
+    /// e [m] at some mesh phases [pitches], and de/dp [m per pitch].
+    #[inline(always)] // into the loops over states, with their vectors
+    pub fn values_and_slopes<const N: usize>(&self, phases: [f64; N]) -> [[f64; N]; 2] {
+        self.series.values_and_slopes(phases)
     }
 
     /// d2e/dp2 [m per pitch squared] at a mesh phase [pitches].
@@ -81,7 +82,7 @@ mod tests {
                 slope -= TAU * order as f64 * amplitude * libm::sin(angle(order, phase));
             }
             // Rounding of angles up to 100 rad.
-            let [found, found_slope] = error.value_and_slope(p);
+            let [[found], [found_slope]] = error.values_and_slopes([p]);
             assert!((found - value).abs() < 1e-13 * 5e-6 * 10.0);
             assert!((found_slope - slope).abs() < 1e-13 * 5e-6 * 100.0);
         }

@@ -198,7 +198,7 @@ impl StiffnessLaw {
         match self.shape {
             Shape::Constant { value } => [value; N],
             Shape::Fourier { mean, ref series } => {
-                cycles.map(|cycle| mean * (1.0 + series.value(cycle)))
+                series.values(cycles).map(|value| mean * (1.0 + value))
             }
             Shape::Table(ref table) => cycles.map(|cycle| table.value(cycle, piece)),
             Shape::Rectangular {

@@ -80,7 +80,7 @@ impl Mesh {
 
     /// Transmission error [m] and its rate [m/s].
     pub(super) fn error_at(&self, phase: Phase) -> [f64; 2] {
-        let [error, slope] = self.error.value_and_slope(phase.value);
+        let [[error], [slope]] = self.error.values_and_slopes([phase.value]);
         [error, slope * phase.rate]
     }
 
@@ -117,7 +117,7 @@ impl Mesh {
         motion: [f64; 2],
     ) -> Compression {
         let sign = if flank == 0 { 1.0 } else { -1.0 };
-        let [_, slope] = self.error.value_and_slope(phase.value);
+        let [_, [slope]] = self.error.values_and_slopes([phase.value]);
         let curvature = self.error.curvature(phase.value);
         Compression {
             depth: motion[0] - sign * slope * change.value,
@@ -175,8 +175,11 @@ impl Mesh {
     }
 
     /// Moves the lines of the flanks by transmission error and backlash; nothing remains of those of an open one.
+    #[inline(always)]
     fn shift<const N: usize>(&self, phases: [Phase; N], pieces: &[Piece], lines: &mut [Lines<N>]) {
-        let errors = phases.map(|phase| self.error_at(phase));
+        let [errors, slopes] = self
+            .error
+            .values_and_slopes(phases.map(|phase| phase.value));
         // Without backlash the second coupling follows the rotations alone.
         let flanks = if self.backlash.is_some() { 2 } else { 1 };
         for (flank, lines) in lines.iter_mut().enumerate().take(flanks) {
@@ -184,9 +187,10 @@ impl Mesh {
                 *lines = Lines::ZERO;
                 continue;
             }
-            let laws = lines.stiffness.iter().zip(errors);
-            for (rest, (&k, error)) in lines.rest.iter_mut().zip(laws) {
-                *rest = self.held_force(k, self.compression(flank, error, [0.0; 2]));
+            for i in 0..N {
+                let error = [errors[i], slopes[i] * phases[i].rate];
+                let still = self.compression(flank, error, [0.0; 2]);
+                lines.rest[i] = self.held_force(lines.stiffness[i], still);
             }
         }
     }

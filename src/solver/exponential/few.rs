@@ -53,19 +53,7 @@ pub(super) fn prepare<const M: usize>(
         }
         sight.forces[i] = forces[i];
     }
-    for p in 0..M {
-        let (done, below) = blocks.split_at_mut(p + 1);
-        let own = &mut done[p];
-        let inverse = inverse_with_one(&own[p]);
-        own[p] = inverse;
-        for row in below {
-            let factor = times(&row[p], &inverse);
-            row[p] = factor;
-            for (block, above) in row[p + 1..].iter_mut().zip(&own[p + 1..]) {
-                subtract_times(block, &factor, above);
-            }
-        }
-    }
+    factorize(blocks);
     Some(feedback.into_iter().fold(0.0, larger) <= MOST_FEEDBACK)
 }
 
@@ -126,7 +114,28 @@ pub(super) fn solve<const M: usize>(
     Some(true)
 }
 
-/// Overwrites the right-hand sides with the unknowns, from the blocks that [`prepare`] leaves.
+/// Overwrites the blocks with what [`substitute`] needs.
+#[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "two rows of one matrix: iterators over them are not unrolled"
+)]
+fn factorize<const M: usize>(blocks: &mut [[Square; M]; M]) {
+    for p in 0..M {
+        let inverse = inverse_with_one(&blocks[p][p]);
+        blocks[p][p] = inverse;
+        for q in p + 1..M {
+            let factor = times(&blocks[q][p], &inverse);
+            blocks[q][p] = factor;
+            for r in p + 1..M {
+                let above = blocks[p][r];
+                subtract_times(&mut blocks[q][r], &factor, &above);
+            }
+        }
+    }
+}
+
+/// Overwrites the right-hand sides with the unknowns, from the blocks that [`factorize`] leaves.
 #[inline(always)]
 fn substitute<const M: usize>(blocks: &[[Square; M]; M], sides: &mut [Quad; M]) {
     for p in 0..M {

@@ -117,7 +117,7 @@ fn work_stays_what_it_was() {
     let counts = simulation.counts();
     assert_eq!(
         (counts.steps, counts.rejected, counts.factorizations),
-        (1110, 0, 12)
+        (1108, 0, 10)
     );
 }
 

@@ -120,7 +120,7 @@ impl Elimination {
         }
     }
 
-    /// Overwrites the right-hand sides with the unknowns. What stands first in every side stays.
+    /// Overwrites the right-hand sides with the unknowns. What stands first in every side stays, even where unknowns are no numbers.
     #[inline(always)]
     pub(super) fn substitute(&self, blocks: &[Square], sides: &mut [Quad]) {
         for pivot in &self.pivots {
@@ -164,8 +164,9 @@ fn next_of(left: &BTreeSet<usize>, graph: &[BTreeSet<usize>]) -> Option<usize> {
 /// The unknowns of a coupling by itself, from the inverse of its block. What stands first in the side stays.
 #[inline(always)]
 pub(super) fn solved(inverse: &Square, side: &Quad) -> Quad {
-    let mut unknowns = [side[0], 0.0, 0.0, 0.0];
+    let mut unknowns = [0.0; 4];
     add_product(&mut unknowns, inverse, side);
+    unknowns[0] = side[0];
     unknowns
 }
 
@@ -195,12 +196,14 @@ fn add_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
     }
 }
 
-/// sum -= matrix times unknowns.
+/// side -= matrix times unknowns. What stands first in the side stays.
 #[inline(always)]
-pub(super) fn subtract_product(sum: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+pub(super) fn subtract_product(side: &mut Quad, columns: &Square, [_, x @ ..]: &Quad) {
+    let first = side[0];
     for (column, x) in columns.iter().zip(x) {
-        subtract_multiple(sum, *x, column);
+        subtract_multiple(side, *x, column);
     }
+    side[0] = first; // zero times what is no number is none either
 }
 
 /// (1 + A)^-1, by cofactors.
@@ -254,6 +257,18 @@ mod tests {
         let shaft = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
         let pairs = pairs(6, &[&shaft[..], &[[2, 4], [3, 5]]].concat());
         assert_eq!(Elimination::of(&pairs, 6).blocks(), pairs.len());
+    }
+
+    #[test]
+    fn what_stands_first_stays_where_unknowns_are_no_numbers() {
+        let plan = Elimination::of(&pairs(2, &[[0, 1]]), 2);
+        let mut blocks = vec![[[0.0, f64::NAN, 1.0, 1.0]; 3]; plan.blocks()];
+        let mut sides = vec![[3.0, 1.0, 1.0, 1.0]; 2];
+        plan.factorize(&mut blocks);
+        plan.substitute(&blocks, &mut sides);
+        for side in sides {
+            assert!(side[0] == 3.0 && side[1].is_nan(), "{side:?}");
+        }
     }
 
     #[test]

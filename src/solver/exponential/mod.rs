@@ -3,8 +3,10 @@
 //! ```text
 //!   eta' = B eta + load(t) - sum over m of b_m F_m(t, d, d')       decoupled states of every block (`part`)
 //!   F_m(s) = sum over j of l_j(s/h) F_m(s_j)                       cubic through four Lobatto nodes (`polynomials`)
-//!   F_j = F(s_j, d(s_j), d'(s_j))                                  the forces are few (`nodes`, `equations`)
+//!   F_j = F(s_j, d(s_j), p'(s_j))                                  the forces are few (`nodes`, `equations`, `few`)
 //! ```
+//!
+//! p is the quintic through the deflections at the nodes and the rates at both ends.
 //!
 //! However fast a mode of the blocks is, the step does not feel it: only the forces have to be followed. Torques,
 //! held inputs, unbalance and gearbox vibration are exact. The method is of order six where forces are smooth, and

@@ -6,8 +6,6 @@
 
 use core::f64::consts::TAU;
 
-use super::turn::turned;
-
 /// The series, without a mean.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct FourierSeries {
@@ -31,8 +29,8 @@ impl FourierSeries {
 
     /// f(p).
     pub(super) fn value(&self, phase: f64) -> f64 {
-        let [values] = self.values([phase]);
-        values
+        let [value] = self.values([phase]);
+        value
     }
 
     /// f(p) at some phases.
@@ -99,7 +97,10 @@ impl FourierSeries {
         if self.coefficients.is_empty() {
             return sums;
         }
-        let (cosine, sine) = turned(phases);
+        let (mut cosine, mut sine) = ([0.0; N], [0.0; N]);
+        for (i, phase) in phases.into_iter().enumerate() {
+            (sine[i], cosine[i]) = libm::sincos(TAU * (phase - libm::floor(phase)));
+        }
         let (mut cosines, mut sines) = ([1.0; N], [0.0; N]);
         let mut order = 0.0;
         for &pair in &self.coefficients {

@@ -29,7 +29,6 @@ mod table;
 mod tooth_geometry;
 mod tooth_pair;
 mod transmission_error;
-mod turn;
 
 pub use stiffness::StiffnessLaw;
 pub use tooth_geometry::{

@@ -128,7 +128,7 @@ impl Coefficients {
         self.influences.complete(h);
     }
 
-    /// The responses and moments of a group at all nodes.
+    /// The responses and moments of a group where they are looked at.
     #[inline(always)]
     fn follow(&mut self, share: Share<'_>, frequencies: &[f64], scratch: &mut Scratch) {
         let matrix = &share.group.matrix;
@@ -292,7 +292,7 @@ impl Coefficients {
     }
 }
 
-/// Forces, through the moments, to what the sensors see at the nodes.
+/// Forces, through the moments, to how the sensors move.
 #[inline(always)]
 fn add_influences(
     part: &Part,

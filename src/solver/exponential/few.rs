@@ -1,8 +1,8 @@
 //! The forces at the nodes of a step where springs are few and their laws straight lines: what `equations`, `elimination` and
 //! `exchange` do for any number of them, for a number that the compiler knows.
 //!
-//! Lists of pairs, and the order of elimination, are looked up for springs by the dozen; for two meshes that is most of the work.
-//! Here everything stands in registers and every spring has to do with every other one.
+//! Lists of pairs, and the order of elimination, are looked up for springs by the dozen; for two meshes that would be most of the
+//! work. Here loops are unrolled, and every spring has to do with every other one.
 
 use super::elimination::{
     Square, inverse_with_one, solved, subtract_product, subtract_times, times,

@@ -14,11 +14,11 @@ pub(super) struct Scratch {
     pub(super) phi: PhiFunctions,
     /// m_k of every actuator, len each.
     pub(super) moments: Vec<[Quad; POWERS]>,
-    /// Real and imaginary part of the response to every harmonic of a part at the nodes, len each.
+    /// Real and imaginary part of the response to every harmonic of a part, len each.
     pub(super) responses: Vec<[Quad; 2]>,
-    /// The same of one group at one node.
+    /// The same of one group at one place.
     response: Vec<Complex<f64>>,
-    /// e^(i w x h) of all harmonics at the nodes.
+    /// e^(i w x h) of all harmonics.
     pub(super) turned: Vec<Numbers<4>>,
 }
 

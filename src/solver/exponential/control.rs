@@ -34,7 +34,7 @@ pub(super) fn growth(error: f64) -> f64 {
     }
 }
 
-/// To 2e-3: value = 2^(6 q + r) m with m from 1 to 2.
+/// To 1e-3: value = 2^(6 q + r) m with m from 1 to 2.
 fn sixth_root(value: f64) -> f64 {
     /// 2^(r/6).
     const PARTS: [f64; 6] = [

@@ -15,7 +15,7 @@ use super::polynomials::{CHECKS, NODES};
 use super::sight::{Moved, Sight, at_checks, rates_at_nodes};
 use crate::solver::Lines;
 
-/// So many springs are few.
+/// So many springs are few: `nodes` has a case for each number of them.
 pub(super) const FEW: usize = 3;
 
 /// Prepares for [`solve`] what does not depend on how couplings move. Gives whether the step is short enough; `None` where there are not

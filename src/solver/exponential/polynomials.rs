@@ -54,12 +54,6 @@ pub(super) const LAGRANGE_AT_CHECKS: [[f64; CHECKS]; NODES] = [
 pub(super) const HERMITE_AT_CHECKS: Hermite = Hermite {
     of_values: [
         [
-            0.591_059_863_407_774_3,
-            0.054_330_006_670_304_74,
-            -4.555_267_910_796_742,
-            -0.246_250_916_421_794_83,
-        ],
-        [
             0.464_190_686_445_302_64,
             -0.109_580_556_523_381_64,
             4.847_644_118_671_816,
@@ -101,10 +95,10 @@ pub(super) const HERMITE_SLOPES: HermiteSlopes = HermiteSlopes {
     of_more_slope: [0.0, 0.1 * (SQRT_5 - 1.0), -0.1 * (SQRT_5 + 1.0), 1.0],
 };
 
-/// What a polynomial's values and slopes at the places for comparison take from its values at the nodes and from its slopes at
-/// both ends: the value at either place, then the slope at either.
+/// What the growth of a polynomial's value from the first node to the places for comparison, and its slopes there, take from the
+/// growth of its value to the other nodes and from its slopes at both ends: the value at either place, then the slope at either.
 pub(super) struct Hermite {
-    pub(super) of_values: [Quad; NODES],
+    pub(super) of_values: [Quad; NODES - 1],
     pub(super) of_slopes: [Quad; 2],
 }
 
@@ -179,25 +173,26 @@ mod tests {
         let slope: Vec<f64> = (1..6).map(|k| k as f64 * polynomial[k]).collect();
         let values = PLACES.map(|x| value(&polynomial, x));
         let slopes = PLACES.map(|x| value(&slope, x));
+        let growth = |list: Quad, node: usize| list[node] - list[0];
+        let grown = [1, 2, END].map(|node| growth(values, node));
         let Hermite {
             of_values,
             of_slopes,
         } = HERMITE_AT_CHECKS;
         let from = |lane: usize| -> f64 {
-            let of_values = of_values.iter().zip(values);
+            let of_values = of_values.iter().zip(grown);
             let of_slopes = of_slopes.iter().zip([slopes[0], slopes[END]]);
             of_values.chain(of_slopes).map(|(w, x)| w[lane] * x).sum()
         };
         for (check, place) in CHECK_PLACES.into_iter().enumerate() {
             // 1e-13: rounding of weights up to 5.
-            assert!((from(check) - value(&polynomial, place)).abs() < 1e-13);
+            let grown = value(&polynomial, place) - values[0];
+            assert!((from(check) - grown).abs() < 1e-13);
             assert!((from(CHECKS + check) - value(&slope, place)).abs() < 1e-13);
         }
-        let growth = |list: Quad, node: usize| list[node] - list[0];
         for node in 0..NODES {
-            let found = HERMITE_SLOPES.of_inner_values[node]
-                * (growth(values, 1) + growth(values, 2))
-                + HERMITE_SLOPES.of_last_value[node] * growth(values, END)
+            let found = HERMITE_SLOPES.of_inner_values[node] * (grown[0] + grown[1])
+                + HERMITE_SLOPES.of_last_value[node] * grown[2]
                 + HERMITE_SLOPES.of_first_slope[node] * slopes[0]
                 + HERMITE_SLOPES.of_more_slope[node] * growth(slopes, END);
             assert!((found - slopes[node]).abs() < 1e-13, "{node}");

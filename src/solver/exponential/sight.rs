@@ -151,7 +151,7 @@ pub(super) fn rates_at_nodes([rate, a, b, end]: &Moved, per_step: f64) -> Quad {
 #[inline(always)]
 pub(super) fn at_checks([d0, v0]: [f64; 2], moved: &Moved, step: f64) -> [[f64; CHECKS]; 2] {
     let Hermite {
-        of_values: [_, of_values @ ..],
+        of_values,
         of_slopes: [of_first, of_last],
     } = &HERMITE_AT_CHECKS;
     // Movements, because slopes are differences.

@@ -2,7 +2,7 @@
 
 use geartrain::config::SolverChoice;
 
-use crate::clock::best;
+use crate::clock::Measure;
 use crate::problem::{Problem, Run};
 use crate::rivals::{ours, rk4};
 
@@ -29,13 +29,21 @@ pub struct Contest {
 }
 
 /// What reached the error.
-pub struct Found {
+pub struct Found<'a> {
     /// The tolerance or step that did.
     pub setting: String,
     /// The error reached.
     pub error: f64,
-    /// What it cost.
-    pub run: Run,
+    /// Steps taken.
+    pub steps: u64,
+    again: Box<dyn Fn() -> Result<Run, String> + 'a>,
+}
+
+impl Found<'_> {
+    /// What it costs, to be measured.
+    pub fn cost(&self) -> Measure<'_> {
+        Box::new(|| (self.again)().map_or(f64::INFINITY, |run| run.seconds))
+    }
 }
 
 impl Contest {
@@ -72,32 +80,32 @@ impl Contest {
     }
 
     /// One of our solvers.
-    pub fn ours(&self, solver: SolverChoice, asked: f64) -> Result<Found, String> {
-        self.by_tolerance(asked, |tolerance| {
+    pub fn ours(&self, solver: SolverChoice, asked: f64) -> Result<Found<'_>, String> {
+        self.by_tolerance(asked, move |tolerance| {
             Ok(ours::run(&self.problem, &self.text, solver, tolerance))
         })
     }
 
     /// The same when it goes on for as long again.
-    pub fn ours_going_on(&self, solver: SolverChoice, asked: f64) -> Result<Found, String> {
-        self.by_tolerance(asked, |tolerance| {
+    pub fn ours_going_on(&self, solver: SolverChoice, asked: f64) -> Result<Found<'_>, String> {
+        self.by_tolerance(asked, move |tolerance| {
             Ok(ours::run_on(&self.problem, &self.text, solver, tolerance))
         })
     }
 
     /// A method with the loosest tolerance of a ladder that reaches the error; words for why none does.
-    pub fn by_tolerance(
+    pub fn by_tolerance<'a>(
         &self,
         asked: f64,
-        run: impl Fn(f64) -> Result<Run, String>,
-    ) -> Result<Found, String> {
+        run: impl Fn(f64) -> Result<Run, String> + 'a,
+    ) -> Result<Found<'a>, String> {
         let decades = (1..=9).map(|decade| 1.0 / f64::from(10u32.pow(decade)));
         let mut why = "not reached".to_string();
         for tolerance in decades.flat_map(|decade| [decade, 0.3 * decade]) {
             match run(tolerance) {
                 Ok(first) if self.error(&first) <= asked => {
                     let setting = format!("tol {tolerance:.0e}");
-                    return Ok(self.found(setting, first, || run(tolerance)));
+                    return Ok(self.found(setting, &first, move || run(tolerance)));
                 }
                 Ok(_) => {}
                 // A smaller tolerance may do.
@@ -120,31 +128,28 @@ impl Contest {
     }
 
     /// A method with so many steps in an interval.
-    pub fn by_steps(
-        &self,
+    pub fn by_steps<'a>(
+        &'a self,
         steps: u64,
-        run: impl Fn(&Problem, u64) -> Result<Run, String>,
-    ) -> Result<Found, String> {
+        run: impl Fn(&Problem, u64) -> Result<Run, String> + 'a,
+    ) -> Result<Found<'a>, String> {
         let interval = SPAN / f64::from(SAMPLES);
         let setting = format!("{:.2} us", 1e6 * interval / steps as f64);
         let first = run(&self.problem, steps)?;
-        Ok(self.found(setting, first, || run(&self.problem, steps)))
+        Ok(self.found(setting, &first, move || run(&self.problem, steps)))
     }
 
-    /// The best wall time of several runs.
-    fn found(
+    fn found<'a>(
         &self,
         setting: String,
-        mut run: Run,
-        again: impl Fn() -> Result<Run, String>,
-    ) -> Found {
-        run.seconds = best(run.seconds, || {
-            again().map_or(f64::INFINITY, |run| run.seconds)
-        });
+        run: &Run,
+        again: impl Fn() -> Result<Run, String> + 'a,
+    ) -> Found<'a> {
         Found {
             setting,
-            error: self.error(&run),
-            run,
+            error: self.error(run),
+            steps: run.steps,
+            again: Box::new(again),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::clock::best;
+use crate::clock::{Measure, in_rounds};
 use crate::models::{MODES, Phases, chain};
 use crate::problem::{loaded, started};
 use crate::table::Table;
@@ -33,55 +33,63 @@ pub fn run() -> Result<(), String> {
         "ns per step and rotor",
         "ms to start",
     ]);
-    let mut notes = Vec::new();
+    let (mut chains, mut measures) = (Vec::new(), Vec::<Measure<'_>>::new());
     for (name, phases) in [
         ("in phase", Phases::Together),
         ("apart", Phases::Apart),
         ("anywhere", Phases::Anywhere),
     ] {
-        let (mut communication, mut own) = (Vec::new(), Vec::new());
         for rotors in ROTORS {
             let clock = Instant::now();
             let (train, settings) = loaded(&chain(rotors, MODES[0], phases));
             let mut simulation = started(&train, &settings, TOLERANCE);
             let start = clock.elapsed().as_secs_f64();
             let mut index = 0;
-            let mut advance = |count: u32| {
+            let mut advance = move |count: u32| {
                 let clock = Instant::now();
                 for _ in 0..count {
                     index += 1;
                     let until = f64::from(index) * STEP;
                     simulation.advance_to(until).expect("the chain is stable");
                 }
-                (
-                    clock.elapsed().as_secs_f64() / f64::from(count),
-                    simulation.counts().steps,
-                )
+                let seconds = clock.elapsed().as_secs_f64() / f64::from(count);
+                (seconds, simulation.counts().steps)
             };
             let (_, before) = advance(WARM_UP);
-            let (first, after) = advance(COUNT);
+            let (_, after) = advance(COUNT);
             let steps = (after - before) as f64 / f64::from(COUNT);
-            let seconds = best(first, || advance(COUNT).0);
-            table.row(vec![
-                name.to_string(),
-                rotors.to_string(),
-                format!("{:.0}", 1e9 * seconds),
-                format!("{steps:.2}"),
-                format!("{:.0}", 1e9 * seconds / steps),
-                format!("{:.0}", 1e9 * seconds / steps / rotors as f64),
-                format!("{:.1}", 1e3 * start),
-            ]);
-            communication.push(seconds);
-            own.push(seconds / steps);
+            chains.push((name, rotors, steps, start));
+            measures.push(Box::new(move || advance(COUNT).0));
         }
-        notes.push(format!(
-            "{name}: from 10 to 100 rotors a communication step grows with their number to the power {:.2}, a step to the power {:.2}",
-            exponent(&communication),
-            exponent(&own)
-        ));
+    }
+    let times = in_rounds(&mut measures);
+    let all: Vec<_> = chains.iter().zip(&times.best).collect();
+    for ((name, rotors, steps, start), seconds) in &all {
+        table.row(vec![
+            name.to_string(),
+            rotors.to_string(),
+            format!("{:.0}", 1e9 * *seconds),
+            format!("{steps:.2}"),
+            format!("{:.0}", 1e9 * *seconds / steps),
+            format!("{:.0}", 1e9 * *seconds / steps / *rotors as f64),
+            format!("{:.1}", 1e3 * start),
+        ]);
     }
     table.print();
-    println!("{}\n", notes.join("\n"));
+    println!("{}\n", times.quiet);
+    for of_phases in all.chunks(ROTORS.len()) {
+        let communication: Vec<f64> = of_phases.iter().map(|(_, seconds)| **seconds).collect();
+        let own = of_phases
+            .iter()
+            .map(|((_, _, steps, _), seconds)| *seconds / steps);
+        println!(
+            "{}: from 10 to 100 rotors a communication step grows with their number to the power {:.2}, a step to the power {:.2}",
+            of_phases[0].0.0,
+            exponent(&communication),
+            exponent(&own.collect::<Vec<f64>>())
+        );
+    }
+    println!();
     Ok(())
 }
 

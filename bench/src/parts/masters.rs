@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use geartrain::interface::Quantity;
 
-use crate::clock::best;
+use crate::clock::{Measure, in_rounds};
 use crate::fmu::{Fmu, Slave};
 use crate::models::{MODES, odd_speed, three_stage};
 use crate::table::Table;
@@ -43,7 +43,7 @@ pub fn run() -> Result<(), String> {
     println!(
         "A communication step of {step} us through the C interface of the packed release library: three_stage from\n\
          equilibrium, default tolerance. All: fmi2SetReal of every gearbox displacement and velocity and of the torques, with\n\
-         values that change in every step, fmi2DoStep, fmi2GetReal of all bearing and mesh forces. Best of several runs.\n"
+         values that change in every step, fmi2DoStep, fmi2GetReal of all bearing and mesh forces.\n"
     );
     let mut table = Table::new(&[
         "speed",
@@ -54,6 +54,7 @@ pub fn run() -> Result<(), String> {
         "ns per communication step",
         "ms per simulated s",
     ]);
+    let mut fmus = Vec::new();
     for speed in ["3000 rpm", "2961.7 rpm"] {
         for modes in MODES {
             let text = three_stage(modes);
@@ -64,30 +65,41 @@ pub fn run() -> Result<(), String> {
             };
             let fmu = Fmu::of(&text)?;
             let exchange = Exchange::of(&fmu);
-            for (name, calls) in [("doStep only", Calls::StepOnly), ("all", Calls::All)] {
-                let seconds = time_steps(&fmu, &exchange, calls);
-                table.row(vec![
-                    speed.to_string(),
-                    modes.to_string(),
-                    exchange.inputs.len().to_string(),
-                    exchange.outputs.len().to_string(),
-                    name.to_string(),
-                    format!("{:.0}", 1e9 * seconds),
-                    format!("{:.2}", 1e3 * seconds / STEP),
-                ]);
-            }
+            fmus.push((speed, modes, fmu, exchange));
         }
     }
+    let (mut lines, mut measures) = (Vec::new(), Vec::new());
+    for (speed, modes, fmu, exchange) in &fmus {
+        for (name, calls) in [("doStep only", Calls::StepOnly), ("all", Calls::All)] {
+            lines.push(vec![
+                speed.to_string(),
+                modes.to_string(),
+                exchange.inputs.len().to_string(),
+                exchange.outputs.len().to_string(),
+                name.to_string(),
+            ]);
+            measures.push(time_of_step(fmu, exchange, calls));
+        }
+    }
+    let times = in_rounds(&mut measures);
+    for (mut cells, seconds) in lines.into_iter().zip(&times.best) {
+        cells.extend([
+            format!("{:.0}", 1e9 * seconds),
+            format!("{:.2}", 1e3 * seconds / STEP),
+        ]);
+        table.row(cells);
+    }
     table.print();
+    println!("{}\n", times.quiet);
     Ok(())
 }
 
 /// Wall time of one step [s].
-fn time_steps(fmu: &Fmu, exchange: &Exchange, calls: Calls) -> f64 {
+fn time_of_step<'a>(fmu: &'a Fmu, exchange: &'a Exchange, calls: Calls) -> Measure<'a> {
     let slave = fmu.instantiate();
     slave.initialize();
     let mut first = 0;
-    let mut measure = || {
+    let mut measure = move || {
         let clock = Instant::now();
         exchange.steps(&slave, calls, first);
         first += COUNT;
@@ -96,7 +108,7 @@ fn time_steps(fmu: &Fmu, exchange: &Exchange, calls: Calls) -> f64 {
     for _ in 0..WARM_UP {
         measure();
     }
-    best(measure(), measure)
+    Box::new(measure)
 }
 
 impl Exchange {

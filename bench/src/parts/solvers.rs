@@ -2,6 +2,7 @@
 
 use geartrain::config::SolverChoice::{Exponential, Newmark};
 
+use crate::clock::{Measure, in_rounds};
 use crate::contest::{Contest, Found, SAMPLES, SPAN};
 use crate::models::{MODES, case_four, odd_speed};
 use crate::problem::{Problem, Run};
@@ -10,6 +11,8 @@ use crate::table::Table;
 
 /// The errors that are asked for.
 const ERRORS: [f64; 2] = [1e-3, 1e-5];
+/// What the others are compared with.
+const UNIT: &str = "exponential";
 
 /// Measures and prints.
 pub fn run() -> Result<(), String> {
@@ -28,7 +31,7 @@ pub fn run() -> Result<(), String> {
         "ns per step",
         "times exponential",
     ]);
-    let mut notes = Vec::new();
+    let mut contests = Vec::new();
     for modes in MODES {
         let contest = Contest::of(&case_four(modes))?;
         let odd = Contest::of(&odd_speed(&case_four(modes)))?;
@@ -38,27 +41,39 @@ pub fn run() -> Result<(), String> {
                 contest.disagreement
             );
         }
+        contests.push((modes, contest, odd));
+    }
+    let mut entries = Vec::new();
+    for (modes, contest, odd) in &contests {
         for asked in ERRORS {
-            let methods = methods(&contest, &odd, asked);
-            let unit = methods[0]
-                .1
-                .as_ref()
-                .map_or(f64::NAN, |ours| ours.run.seconds);
-            for (name, found) in methods {
-                let mut cells = vec![name.to_string(), modes.to_string(), format!("{asked:.0e}")];
-                match found {
-                    Ok(found) => cells.extend(figures(&found, unit)),
-                    Err(why) => {
-                        notes.push(format!("{name}, {modes} modes, {asked:.0e}: {why}"));
-                        cells.push("none".to_string());
-                    }
+            let all = methods(contest, odd, asked).into_iter();
+            entries.extend(all.map(|(name, found)| (name, *modes, asked, found)));
+        }
+    }
+    let found = entries.iter().filter_map(|(.., found)| found.as_ref().ok());
+    let mut costs: Vec<Measure<'_>> = found.map(Found::cost).collect();
+    let times = in_rounds(&mut costs);
+    let (mut best, mut unit, mut notes) = (times.best.iter(), f64::NAN, Vec::new());
+    for (name, modes, asked, found) in &entries {
+        let mut cells = vec![name.to_string(), modes.to_string(), format!("{asked:.0e}")];
+        match found {
+            Ok(found) => {
+                let seconds = *best.next().ok_or("a time is missing")?;
+                if *name == UNIT {
+                    unit = seconds;
                 }
-                table.row(cells);
+                cells.extend(figures(found, seconds, unit));
+            }
+            Err(why) => {
+                notes.push(format!("{name}, {modes} modes, {asked:.0e}: {why}"));
+                cells.push("none".to_string());
             }
         }
+        table.row(cells);
     }
     println!();
     table.print();
+    println!("{}", times.quiet);
     for note in notes {
         println!("{note}");
     }
@@ -68,16 +83,16 @@ pub fn run() -> Result<(), String> {
 
 /// What each method needs to reach an error: ours at a mesh period that fits the times and at one that does not, from the start and
 /// when it goes on, then others.
-fn methods(
-    contest: &Contest,
-    odd: &Contest,
+fn methods<'a>(
+    contest: &'a Contest,
+    odd: &'a Contest,
     asked: f64,
-) -> Vec<(&'static str, Result<Found, String>)> {
+) -> Vec<(&'static str, Result<Found<'a>, String>)> {
     let problem = &contest.problem;
     let steps = contest.runge_kutta_steps(asked);
     let by_steps =
         |run: fn(&Problem, u64) -> Result<Run, String>| contest.by_steps(steps.clone()?, run);
-    let dopri5 = |tolerance| Ok(dopri5::run(problem, tolerance));
+    let dopri5 = move |tolerance| Ok(dopri5::run(problem, tolerance));
     let diffsol = |method| {
         contest.by_tolerance(asked, move |tolerance| {
             diffsol::run(contest.text(), method, tolerance)
@@ -89,7 +104,7 @@ fn methods(
         })
     };
     vec![
-        ("exponential", contest.ours(Exponential, asked)),
+        (UNIT, contest.ours(Exponential, asked)),
         (
             "exponential, going on",
             contest.ours_going_on(Exponential, asked),
@@ -114,20 +129,13 @@ fn methods(
     ]
 }
 
-fn figures(
-    Found {
-        setting,
-        error,
-        run,
-    }: &Found,
-    unit: f64,
-) -> Vec<String> {
+fn figures(found: &Found<'_>, seconds: f64, unit: f64) -> Vec<String> {
     vec![
-        setting.clone(),
-        format!("{error:.1e}"),
-        format!("{:.2}", 1e3 * run.seconds / SPAN),
-        format!("{:.3e}", run.steps as f64 / SPAN),
-        format!("{:.0}", 1e9 * run.seconds / run.steps as f64),
-        format!("{:.1}", run.seconds / unit),
+        found.setting.clone(),
+        format!("{:.1e}", found.error),
+        format!("{:.2}", 1e3 * seconds / SPAN),
+        format!("{:.3e}", found.steps as f64 / SPAN),
+        format!("{:.0}", 1e9 * seconds / found.steps as f64),
+        format!("{:.1}", seconds / unit),
     ]
 }

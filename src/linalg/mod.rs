@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 pub use decoupling::{Decoupling, Group, decouple};
 pub use eigenpairs::{Eigenpair, eigenpairs, eigenvalues};
-pub use phi::{Numbers, PHI_ORDERS, PhiFunctions, SmallPhi};
+pub use phi::{Numbers, PHI_ORDERS, PhiFunctions, SmallPhi, exponentials};
 pub use quadratic::quadratic_eigenpair;
 
 /// Natural modes of `M u'' + K u = 0`, ascending in frequency, as far as floating point resolves them.

@@ -26,7 +26,7 @@ use super::add_scaled;
 use numbers::{INVERSE_FACTORIAL, RECIPROCAL, SERIES_RADIUS, terms};
 
 pub use numbers::{Numbers, PHI_ORDERS};
-pub use small::SmallPhi;
+pub use small::{SmallPhi, exponentials};
 
 /// Arguments beyond 2^60 have lost all digits of their phase.
 const MOST_HALVINGS: u32 = 60;

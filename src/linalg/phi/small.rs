@@ -16,24 +16,39 @@ use super::numbers::{
 /// exponentials would lose digits.
 const RESONANT: f64 = 1e-2;
 
-/// phi_0 to phi_6 of a matrix of one or two rows at N times, as numbers along S.
+/// phi_0 to phi_6 of a matrix of one or two rows, as numbers along S, at four [`times`](SmallPhi::of).
 #[derive(Debug, Clone, Copy)]
-pub struct SmallPhi<const N: usize> {
+pub struct SmallPhi {
     /// The functions.
-    pub phi: [Numbers<N>; PHI_ORDERS],
-    times: [f64; N],
+    pub phi: [Numbers<4>; PHI_ORDERS],
+    times: [f64; 4],
     /// The eigenvalue with positive imaginary part, where there is a pair of complex ones.
     pair: Option<Complex<f64>>,
 }
 
-impl<const N: usize> SmallPhi<N> {
-    /// The functions of `matrix * time`; `None` for a larger matrix. `general` serves where the eigenvalues do not.
+/// e^(z T) at times T as those of [`SmallPhi::of`]: at the sum of two times it is the product.
+pub fn exponentials(z: Complex<f64>, times: [f64; 4]) -> Numbers<4> {
+    let exponential = |time: f64| {
+        let (sine, cosine) = libm::sincos(z.im * time);
+        Complex::new(cosine, sine) * libm::exp(z.re * time)
+    };
+    let [one, other] = [times[1], times[2]].map(exponential);
+    let grown = [one * other, one, other, one * other];
+    Numbers {
+        re: grown.map(|grown| grown.re),
+        im: grown.map(|grown| grown.im),
+    }
+}
+
+impl SmallPhi {
+    /// The functions of `matrix * time` at these times, not negative: two, and before and behind them their sum. `None` for a larger
+    /// matrix. `general` serves where the eigenvalues do not.
     #[inline(always)]
     pub fn of(
         matrix: &DMatrix<f64>,
-        times: [f64; N],
+        times: [f64; 4],
         general: &mut PhiFunctions,
-    ) -> Option<SmallPhi<N>> {
+    ) -> Option<SmallPhi> {
         let (a, q) = match *matrix.as_slice() {
             [value] => (value, 0.0),
             [a, b, c, d] => (0.5 * (a + d), 0.25 * (a - d) * (a - d) + b * c),
@@ -45,20 +60,26 @@ impl<const N: usize> SmallPhi<N> {
             re: times.map(|time| a * time),
             im: times,
         };
-        let longest = times.into_iter().fold(0.0, f64::max);
+        let longest = times[0];
         let pair = (q < 0.0).then(|| Complex::new(a, (-q).sqrt()));
-        let phi = if is_small == [true; N] {
+        let phi = if is_small[0] {
             phi_by_series(&z, q, radius * longest)
         } else {
             let others = match pair {
                 // With a small w the formula would divide rounding by w.
                 Some(value) if value.im * longest > 1e-3 * (a.abs() * longest + 1.0) => {
-                    phi_by_exponential(&z, q, &exponentials(value, &z, is_small))
+                    let mut grown = exponentials(value, times);
+                    grown.im = grown.im.map(|im| im / value.im);
+                    phi_by_exponential(&z, q, &grown)
                 }
                 _ => in_general(matrix, times, is_small, general),
             };
-            let series = phi_by_series(&z, q, SERIES_RADIUS);
-            core::array::from_fn(|k| series[k].where_or(is_small, &others[k]))
+            if is_small == [false; 4] {
+                others
+            } else {
+                let series = phi_by_series(&z, q, SERIES_RADIUS);
+                core::array::from_fn(|k| series[k].where_or(is_small, &others[k]))
+            }
         };
         Some(SmallPhi { phi, times, pair })
     }
@@ -74,9 +95,9 @@ impl<const N: usize> SmallPhi<N> {
     pub fn oscillator_response(
         &self,
         matrix: &DMatrix<f64>,
-        driven: (f64, &Numbers<N>),
+        driven: (f64, &Numbers<4>),
         load: &[Complex<f64>],
-    ) -> Option<[Numbers<N>; 2]> {
+    ) -> Option<[Numbers<4>; 2]> {
         let (Some(value), &[one, two]) = (self.pair, load) else {
             return None;
         };
@@ -102,12 +123,11 @@ impl<const N: usize> SmallPhi<N> {
     fn driven(
         &self,
         value: Complex<f64>,
-        grown: &Numbers<N>,
-        (frequency, turned): (f64, &Numbers<N>),
-    ) -> Numbers<N> {
+        grown: &Numbers<4>,
+        (frequency, turned): (f64, &Numbers<4>),
+    ) -> Numbers<4> {
         let apart = value - Complex::new(0.0, frequency);
-        let longest = self.times.into_iter().fold(0.0, f64::max);
-        let size = apart.l1_norm() * longest;
+        let size = apart.l1_norm() * self.times[0];
         if size < RESONANT {
             let z = Numbers::all(apart).scaled(&self.times);
             let phi = phi_by_series(&z, COMPLEX, size);
@@ -121,38 +141,18 @@ impl<const N: usize> SmallPhi<N> {
 
 /// a x + b y.
 #[inline(always)]
-fn combination<const N: usize>(
-    a: &Numbers<N>,
-    x: Complex<f64>,
-    b: &Numbers<N>,
-    y: Complex<f64>,
-) -> Numbers<N> {
+fn combination(a: &Numbers<4>, x: Complex<f64>, b: &Numbers<4>, y: Complex<f64>) -> Numbers<4> {
     let along = b.times(&Numbers::all(y), COMPLEX);
     a.times(&Numbers::all(x), COMPLEX).with(&along)
 }
 
-/// e^z of a pair of complex eigenvalues; not where that is not asked for.
-fn exponentials<const N: usize>(
-    value: Complex<f64>,
-    z: &Numbers<N>,
-    skipped: [bool; N],
-) -> Numbers<N> {
-    let mut grown = Numbers::ZERO;
-    for (i, _) in skipped.iter().enumerate().filter(|(_, skipped)| !**skipped) {
-        let (sine, cosine) = libm::sincos(value.im * z.im[i]);
-        let size = libm::exp(z.re[i]);
-        (grown.re[i], grown.im[i]) = (size * cosine, size * sine / value.im);
-    }
-    grown
-}
-
 /// The functions of a matrix of any eigenvalues; not where they are not asked for.
-fn in_general<const N: usize>(
+fn in_general(
     matrix: &DMatrix<f64>,
-    times: [f64; N],
-    skipped: [bool; N],
+    times: [f64; 4],
+    skipped: [bool; 4],
     general: &mut PhiFunctions,
-) -> [Numbers<N>; PHI_ORDERS] {
+) -> [Numbers<4>; PHI_ORDERS] {
     let mut functions = [Numbers::ZERO; PHI_ORDERS];
     let entries = matrix.as_slice();
     let largest = largest_along(entries);

@@ -15,7 +15,7 @@ fn rotated(values: [f64; 2]) -> (DMatrix<f64>, impl Fn([f64; 2]) -> DMatrix<f64>
 fn functions(matrix: &DMatrix<f64>) -> [DMatrix<f64>; PHI_ORDERS] {
     let m = matrix.nrows();
     let mut functions = PhiFunctions::new(m);
-    if let Some(small) = SmallPhi::of(matrix, [1.0], &mut functions) {
+    if let Some(small) = SmallPhi::of(matrix, [1.0, 0.3, 0.7, 1.0], &mut functions) {
         let shift = DMatrix::identity(m, m) * (matrix.trace() / m as f64);
         let shifted = matrix - shift;
         let identity = DMatrix::identity(m, m);
@@ -91,9 +91,9 @@ fn oscillator_response_is_the_same_through_formula_and_augmentation_and_at_reson
     for (a, frequency) in [(-0.2, 3.0), (0.0, 7.0), (0.0, 7.0 + 1e-9), (-1.0, -20.0)] {
         let matrix = DMatrix::from_row_slice(2, 2, &[a, -w, w, a]);
         let mut response = PhiFunctions::new(3);
-        let (sine, cosine) = libm::sincos(frequency * time);
-        let turned = Numbers::<1>::all(Complex::new(cosine, sine));
-        let small = SmallPhi::of(&matrix, [time], &mut response).unwrap();
+        let times = [time, 0.2, time - 0.2, time];
+        let turned = exponentials(Complex::new(0.0, frequency), times);
+        let small = SmallPhi::of(&matrix, times, &mut response).unwrap();
         let formula = small.oscillator_response(&matrix, (frequency, &turned), &load);
         let formula = formula.unwrap().map(|response| response.get(0));
         // The same pair beside an unrelated state takes the general way.
@@ -115,16 +115,18 @@ fn oscillator_response_is_the_same_through_formula_and_augmentation_and_at_reson
 fn times_do_not_meddle_with_each_other() {
     // Some by series, some by the exponential, near the border between both.
     let matrix = DMatrix::from_row_slice(2, 2, &[-0.2, -3.0, 3.0, -0.2]);
-    let times = [0.05, 0.3, 0.32, 1.7];
     let mut general = PhiFunctions::new(2);
-    let all = SmallPhi::of(&matrix, times, &mut general).unwrap();
-    for (i, time) in times.into_iter().enumerate() {
-        let alone = SmallPhi::of(&matrix, [time], &mut general).unwrap();
-        for (k, (all, alone)) in all.phi.iter().zip(&alone.phi).enumerate() {
-            let both = [(all.re, alone.re), (all.im, alone.im)];
-            for (all, alone) in both {
-                // 1e-15: series of different length.
-                assert!((all[i] - alone[0]).abs() <= 1e-15, "phi_{k} at {time}");
+    for [one, other] in [[0.05, 0.3], [0.3, 0.32], [0.32, 1.7]] {
+        let times = [one + other, one, other, one + other];
+        let all = SmallPhi::of(&matrix, times, &mut general).unwrap();
+        for (i, time) in times.into_iter().enumerate() {
+            let alone = SmallPhi::of(&matrix, [time, 0.0, time, time], &mut general).unwrap();
+            for (k, (all, alone)) in all.phi.iter().zip(&alone.phi).enumerate() {
+                let both = [(all.re, alone.re), (all.im, alone.im)];
+                for (all, alone) in both {
+                    // 1e-15: series of different length, products.
+                    assert!((all[i] - alone[0]).abs() <= 1e-15, "phi_{k} at {time}");
+                }
             }
         }
     }

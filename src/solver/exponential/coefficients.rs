@@ -161,33 +161,37 @@ impl Coefficients {
             place,
             h,
         } = share;
-        let (states, own) = (part.len(), group.first..group.first + group.matrix.nrows());
+        let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
         let times = SEEN_AT.map(|x| x * h);
         let squares = times.map(|time| time * time);
         let responses = [
-            (times, phi[1], &mut self.gain, &mut self.free),
-            (squares, phi[2], &mut self.ramp_gain, &mut self.ramp),
+            (times, &phi[1], &mut self.gain, &mut self.free),
+            (squares, &phi[2], &mut self.ramp_gain, &mut self.ramp),
         ];
         for (factors, phi, gain, seen) in responses {
-            let [level, slope] = parts_of(&phi, &factors);
+            let [level, slope] = parts_of(phi, &factors);
             gain.set_line(part, group, level[END], slope[END]);
             for sensor in 0..part.sensors.len() {
-                for state in own.clone() {
-                    let seen = &mut seen[place.states(sensor) + state];
-                    let state = sensor * states + state;
-                    let (rows, along) = (&part.sensor_rows[state], &part.sensor_slopes[state]);
-                    *seen = combination(rows, &level, along, &slope);
+                let own = sensor * states + first..sensor * states + first + m;
+                let rows = part.sensor_rows[own.clone()].iter();
+                let rows = rows.zip(&part.sensor_slopes[own]);
+                let seen = &mut seen[place.states(sensor) + first..][..m];
+                for (seen, (row, along)) in seen.iter_mut().zip(rows) {
+                    *seen = combination(row, &level, along, &slope);
                 }
             }
         }
-        let phi: [[Quad; 2]; POWERS] =
-            core::array::from_fn(|k| parts_of(&phi[k + 1], &MOMENTS[k].map(|moment| moment * h)));
+        let mut functions = [[[0.0; 4]; 2]; POWERS];
+        for ((function, phi), factors) in functions.iter_mut().zip(&phi[1..]).zip(&MOMENTS) {
+            *function = parts_of(phi, &factors.map(|factor| factor * h));
+        }
         let columns = part.actuator_columns.as_slice();
         let slopes = part.actuator_slopes.as_slice();
         for actuator in 0..part.actuators.len() {
-            for state in own.clone().map(|state| actuator * states + state) {
-                let (column, along) = (columns[state], slopes[state]);
-                for (moment, [level, slope]) in moments[state].iter_mut().zip(&phi) {
+            let own = actuator * states + first..actuator * states + first + m;
+            let columns = columns[own.clone()].iter().zip(&slopes[own.clone()]);
+            for (moments, (&column, &along)) in moments[own].iter_mut().zip(columns) {
+                for (moment, [level, slope]) in moments.iter_mut().zip(&functions) {
                     *moment = combination(&[column; 4], level, &[along; 4], slope);
                 }
             }

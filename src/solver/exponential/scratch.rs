@@ -6,7 +6,7 @@ use super::lanes::Quad;
 use super::panel::Place;
 use super::part::Part;
 use super::polynomials::{POWERS, SEEN_AT};
-use crate::linalg::{Group, Numbers, PhiFunctions, SmallPhi};
+use crate::linalg::{Group, Numbers, PhiFunctions, SmallPhi, exponentials};
 
 /// Room for computing coefficients.
 #[derive(Debug, Clone)]
@@ -55,10 +55,8 @@ impl Scratch {
 
     /// Turns the harmonics to the nodes.
     pub(super) fn turn(&mut self, frequencies: &[f64], h: f64) {
-        for (turned, frequency) in self.turned.iter_mut().zip(frequencies) {
-            for (i, x) in SEEN_AT.into_iter().enumerate() {
-                (turned.im[i], turned.re[i]) = libm::sincos(frequency * x * h);
-            }
+        for (turned, &frequency) in self.turned.iter_mut().zip(frequencies) {
+            *turned = exponentials(Complex::new(0.0, frequency), SEEN_AT.map(|x| x * h));
         }
     }
 
@@ -74,7 +72,7 @@ impl Scratch {
         &mut self,
         share: Share<'_>,
         frequencies: &[f64],
-        small: &SmallPhi<4>,
+        small: &SmallPhi,
     ) {
         let Share { part, group, .. } = share;
         let m = group.matrix.nrows();

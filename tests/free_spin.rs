@@ -150,6 +150,23 @@ fn a_coast_down_is_exponential() {
 }
 
 #[test]
+fn a_weak_drag_that_is_shared_as_the_inertia_is_leaves_the_teeth_alone() {
+    // As above with a time constant of 100 s: nothing passes the mesh. What the teeth feel is rounding of the angles by which the gears
+    // have turned, and must not be that of where they would come to rest, 2e4 rad on.
+    let rate = 0.01;
+    let slopes = RigidPair::INERTIA.map(|inertia| rate * inertia);
+    let mut run = free_pair(200.0, [(0.0, slopes[0]), (0.0, slopes[1])]);
+    for index in 1..=20 {
+        run.advance_to(0.05 * f64::from(index));
+        let travel = RigidPair::RADIUS[0] * run.motion().angle(0);
+        // 16: a few dozen roundings of either sign, and the rates.
+        let bound = 16.0 * f64::EPSILON * travel.max(RigidPair::RADIUS[0]) * 1e8;
+        let force = run.motion().mesh_force(0);
+        assert!(force.abs() < bound, "{force:e} N, {bound:e} N of rounding");
+    }
+}
+
+#[test]
 fn a_reversed_torque_crosses_the_backlash_in_the_time_of_free_flight() {
     // From just in touch, -T on rotor one alone: it flies freely, delta = -R_1 T t^2 / 2 J_1, until delta = -backlash.
     let (backlash, torque) = (3e-4, 20.0);

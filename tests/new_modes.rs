@@ -90,9 +90,9 @@ fn work_stays_what_it_was() {
     // Our own past: 0.01 s at the default tolerance. A change here is a change of the step control or of what counts as an
     // event; review it and put the new figures down. Steps, rejected, factorizations, evaluations, events, refreshes.
     let expected = [
-        [623, 0, 264, 4332, 53, 0],
-        [539, 0, 80, 8874, 34, 1],
-        [508, 0, 45, 7032, 5, 31],
+        [623, 0, 264, 4320, 53, 0],
+        [539, 0, 80, 8897, 34, 1],
+        [508, 0, 45, 7022, 5, 31],
         [537, 0, 29, 7752, 0, 0],
     ];
     let work = |name: &&str| {

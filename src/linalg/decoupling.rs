@@ -14,8 +14,8 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-/// Largest entry of a decoupling transformation: two digits to the fourth are lost at the most.
-const LARGEST_COUPLING: f64 = 1e4;
+/// Largest entry of a decoupling transformation: states that stay two would lose more than two digits.
+const LARGEST_COUPLING: f64 = 1e2;
 
 /// A matrix in block diagonal form.
 #[derive(Debug, Clone)]
@@ -325,6 +325,19 @@ mod tests {
             ],
         );
         assert_eq!(sizes(&check(&matrix)), [1, 1, 2]);
+    }
+
+    #[test]
+    fn a_slow_rotation_with_weak_drag_stays_together() {
+        let group_sizes = |drag: f64| {
+            sizes(&check(&DMatrix::from_row_slice(
+                2,
+                2,
+                &[0.0, 1e3, 0.0, -drag],
+            )))
+        };
+        assert_eq!(group_sizes(9.0), [2]);
+        assert_eq!(group_sizes(11.0), [1, 1]);
     }
 
     #[test]

@@ -35,7 +35,7 @@ pub struct SavedState {
 
 const MAGIC: &[u8; 16] = b"geartrain state\0";
 /// Changes whenever the content of a saved state does.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 /// Magic, version, length, checksum.
 const HEADER: usize = 16 + 4 + 8 + 32;
 

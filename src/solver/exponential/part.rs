@@ -15,8 +15,9 @@ use super::block_diagonal::rank;
 use super::lanes::{Quad, padded};
 use crate::linalg::{Decoupling, Group, decouple};
 
-/// Softer coordinates than this [rad^2/s^2] are scaled like it.
-const SOFTEST: f64 = 1.0;
+/// Softer coordinates than this [rad^2/s^2] are scaled like it, a slow vibration. It decides which rotations stay one group of angle
+/// and speed: taken apart, the angle would be counted from where a weak drag lets the rotation come to rest, and lose digits.
+const SOFTEST: f64 = 1e6;
 
 /// A block with everything that acts on it and looks at it. Behind its 2n states others may follow that stay zero: `len` of
 /// them in all.

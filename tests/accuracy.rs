@@ -30,8 +30,8 @@ fn random_trains_stay_within_a_thousandth_at_the_default_tolerance_and_follow_sm
     for seed in 0..SEEDS {
         let text = of_seed(seed).text();
         let converged = forces(&text, 1e-8);
-        // 1e-3 at 1e-4: the claim. 1e-6 allows ten times the tolerance, because impacts let errors grow.
-        for (tolerance, bound) in [(1e-4, 1e-3), (1e-6, 1e-5)] {
+        // 1e-3 at 1e-4: the claim. 1e-6 allows four times the tolerance, because impacts let errors grow.
+        for (tolerance, bound) in [(1e-4, 1e-3), (1e-6, 4e-6)] {
             for (mesh, (found, right)) in
                 forces(&text, tolerance).iter().zip(&converged).enumerate()
             {

@@ -17,26 +17,10 @@ use super::exchange::{Exchange, Influences};
 use super::lanes::{Quad, add_product, subtract_multiple, subtract_product};
 use super::panel::{Panels, Place};
 use super::part::Part;
-use super::polynomials::{END, FACTORIAL, LAGRANGE, NODES, POWERS, SEEN_AT};
-use super::scratch::{Scratch, Share};
+use super::polynomials::{END, LAGRANGE, NODES, POWERS, SEEN_AT};
+use super::scratch::{Functions, MOMENTS, Scratch, Share};
 use super::sight::Moved;
-use crate::linalg::{Numbers, PHI_ORDERS, SmallPhi};
-
-/// k! x^(k+1) where couplings are looked at.
-const MOMENTS: [Quad; POWERS] = {
-    let mut moments = [[0.0; 4]; POWERS];
-    let (mut k, mut power) = (0, SEEN_AT);
-    while k < POWERS {
-        let mut i = 0;
-        while i < 4 {
-            moments[k][i] = FACTORIAL[k] * power[i];
-            power[i] *= SEEN_AT[i];
-            i += 1;
-        }
-        k += 1;
-    }
-    moments
-};
+use crate::linalg::SmallPhi;
 
 /// The coefficients of all parts for one step length.
 #[derive(Debug, Clone)]
@@ -120,6 +104,7 @@ impl Coefficients {
                 };
                 self.follow(share, frequencies, scratch);
             }
+            self.follow_small(part, place, scratch);
             self.combine_pushes(part, place, scratch);
             self.combine_responses(part, place, scratch);
             add_influences(part, number, (exchange, &mut self.influences), scratch);
@@ -134,7 +119,13 @@ impl Coefficients {
         let matrix = &share.group.matrix;
         let times = SEEN_AT.map(|x| x * share.h);
         if let Some(small) = SmallPhi::of(matrix, times, &mut scratch.phi) {
-            self.follow_lines(share, &small.phi, &mut scratch.moments);
+            let functions = Functions::of(&small.phi, share.h);
+            let Share { part, group, .. } = share;
+            let matrices = [&mut self.gain, &mut self.ramp_gain];
+            for (matrix, [level, slope]) in matrices.into_iter().zip(&functions.responses) {
+                matrix.set_line(part, group, level[END], slope[END]);
+            }
+            scratch.functions[group.first..][..matrix.nrows()].fill(functions);
             scratch.respond_small(share, frequencies, &small);
             return;
         }
@@ -147,51 +138,34 @@ impl Coefficients {
         }
     }
 
-    /// Responses and moments of a group of one or two states, whose phi_k are level + slope S.
+    /// Responses and moments of all groups of one or two states.
     #[inline(always)]
-    fn follow_lines(
-        &mut self,
-        share: Share<'_>,
-        phi: &[Numbers<4>; PHI_ORDERS],
-        moments: &mut [[Quad; POWERS]],
-    ) {
-        let Share {
-            part,
-            group,
-            place,
-            h,
-        } = share;
-        let (states, first, m) = (part.len(), group.first, group.matrix.nrows());
-        let times = SEEN_AT.map(|x| x * h);
-        let squares = times.map(|time| time * time);
-        let responses = [
-            (times, &phi[1], &mut self.gain, &mut self.free),
-            (squares, &phi[2], &mut self.ramp_gain, &mut self.ramp),
-        ];
-        for (factors, phi, gain, seen) in responses {
-            let [level, slope] = parts_of(phi, &factors);
-            gain.set_line(part, group, level[END], slope[END]);
-            for sensor in 0..part.sensors.len() {
-                let own = sensor * states + first..sensor * states + first + m;
-                let rows = part.sensor_rows[own.clone()].iter();
-                let rows = rows.zip(&part.sensor_slopes[own]);
-                let seen = &mut seen[place.states(sensor) + first..][..m];
-                for (seen, (row, along)) in seen.iter_mut().zip(rows) {
-                    *seen = combination(row, &level, along, &slope);
+    fn follow_small(&mut self, part: &Part, place: &Place, scratch: &mut Scratch) {
+        let states = part.len().max(1);
+        let functions = &scratch.functions[..part.in_small_groups()];
+        let sensors = part.sensor_rows.chunks_exact(states);
+        let sensors = sensors.zip(part.sensor_slopes.chunks_exact(states));
+        for (sensor, (rows, slopes)) in sensors.enumerate() {
+            let first = place.states(sensor);
+            let seen = self.free[first..].iter_mut().zip(&mut self.ramp[first..]);
+            for ((seen, functions), (row, along)) in
+                seen.zip(functions).zip(rows.iter().zip(slopes))
+            {
+                let seen = [seen.0, seen.1].into_iter().zip(&functions.responses);
+                for (seen, [level, slope]) in seen {
+                    *seen = combination(row, level, along, slope);
                 }
             }
         }
-        let mut functions = [[[0.0; 4]; 2]; POWERS];
-        for ((function, phi), factors) in functions.iter_mut().zip(&phi[1..]).zip(&MOMENTS) {
-            *function = parts_of(phi, &factors.map(|factor| factor * h));
-        }
-        let columns = part.actuator_columns.as_slice();
-        let slopes = part.actuator_slopes.as_slice();
-        for actuator in 0..part.actuators.len() {
-            let own = actuator * states + first..actuator * states + first + m;
-            let columns = columns[own.clone()].iter().zip(&slopes[own.clone()]);
-            for (moments, (&column, &along)) in moments[own].iter_mut().zip(columns) {
-                for (moment, [level, slope]) in moments.iter_mut().zip(&functions) {
+        let columns = part.actuator_columns.as_slice().chunks_exact(states);
+        let columns = columns.zip(part.actuator_slopes.as_slice().chunks_exact(states));
+        let moments = scratch.moments.chunks_exact_mut(states);
+        for (moments, (columns, slopes)) in moments.zip(columns) {
+            let columns = columns.iter().zip(slopes);
+            for ((moments, functions), (&column, &along)) in
+                moments.iter_mut().zip(functions).zip(columns)
+            {
+                for (moment, [level, slope]) in moments.iter_mut().zip(&functions.moments) {
                     *moment = combination(&[column; 4], level, &[along; 4], slope);
                 }
             }
@@ -324,12 +298,6 @@ fn read(rows: &[Quad], moments: &[[Quad; POWERS]]) -> [Quad; POWERS] {
         }
     }
     seen
-}
-
-/// A function, level and slope along S, times factors.
-#[inline(always)]
-fn parts_of(phi: &Numbers<4>, factors: &Quad) -> [Quad; 2] {
-    [&phi.re, &phi.im].map(|part| core::array::from_fn(|i| part[i] * factors[i]))
 }
 
 /// a x + b y, element by element.

@@ -121,6 +121,11 @@ impl Part {
         self.shapes.ncols()
     }
 
+    /// So many of its states, the first ones, are in groups of one or two.
+    pub(super) fn in_small_groups(&self) -> usize {
+        small(&self.groups)
+    }
+
     /// Its states among those of all parts, in fours.
     pub(super) fn quads(&self) -> core::ops::Range<usize> {
         self.first / 4..(self.first + self.len()) / 4
@@ -198,7 +203,11 @@ fn slopes(groups: &[Group], states: usize) -> DMatrix<f64> {
 
 /// The states of groups of one or two, without a single one left over.
 fn paired(groups: &[Group]) -> usize {
+    small(groups) / 2 * 2
+}
+
+/// The states of groups of one or two.
+fn small(groups: &[Group]) -> usize {
     let sizes = groups.iter().map(|group| group.matrix.nrows());
-    let small: usize = sizes.filter(|&size| size <= 2).sum();
-    small / 2 * 2
+    sizes.filter(|&size| size <= 2).sum()
 }

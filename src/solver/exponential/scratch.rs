@@ -5,13 +5,31 @@ use nalgebra::Complex;
 use super::lanes::Quad;
 use super::panel::Place;
 use super::part::Part;
-use super::polynomials::{POWERS, SEEN_AT};
-use crate::linalg::{Group, Numbers, PhiFunctions, SmallPhi, exponentials};
+use super::polynomials::{FACTORIAL, POWERS, SEEN_AT};
+use crate::linalg::{Group, Numbers, PHI_ORDERS, PhiFunctions, SmallPhi, exponentials};
+
+/// k! x^(k+1) where couplings are looked at.
+pub(super) const MOMENTS: [Quad; POWERS] = {
+    let mut moments = [[0.0; 4]; POWERS];
+    let (mut k, mut power) = (0, SEEN_AT);
+    while k < POWERS {
+        let mut i = 0;
+        while i < 4 {
+            moments[k][i] = FACTORIAL[k] * power[i];
+            power[i] *= SEEN_AT[i];
+            i += 1;
+        }
+        k += 1;
+    }
+    moments
+};
 
 /// Room for computing coefficients.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
     pub(super) phi: PhiFunctions,
+    /// Of the small groups of a part, for each of their states.
+    pub(super) functions: Vec<Functions>,
     /// m_k of every actuator, len each.
     pub(super) moments: Vec<[Quad; POWERS]>,
     /// Real and imaginary part of the response to every harmonic of a part, len each.
@@ -20,6 +38,44 @@ pub(super) struct Scratch {
     response: Vec<Complex<f64>>,
     /// e^(i w x h) of all harmonics.
     pub(super) turned: Vec<Numbers<4>>,
+}
+
+/// Functions of a group of one or two states that are level + slope S.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Functions {
+    /// x h phi_1 and (x h)^2 phi_2.
+    pub(super) responses: [[Quad; 2]; 2],
+    /// k! x^(k+1) h phi_(k+1).
+    pub(super) moments: [[Quad; 2]; POWERS],
+}
+
+impl Functions {
+    const ZERO: Functions = Functions {
+        responses: [[[0.0; 4]; 2]; 2],
+        moments: [[[0.0; 4]; 2]; POWERS],
+    };
+
+    /// From the functions phi_k for steps of length h.
+    #[inline(always)]
+    pub(super) fn of(phi: &[Numbers<4>; PHI_ORDERS], h: f64) -> Functions {
+        let mut functions = Functions::ZERO;
+        let times = SEEN_AT.map(|x| x * h);
+        let squares = times.map(|time| time * time);
+        let responses = [(&phi[1], times), (&phi[2], squares)];
+        for (line, (phi, factors)) in functions.responses.iter_mut().zip(responses) {
+            *line = scaled(phi, &factors);
+        }
+        for ((line, phi), factors) in functions.moments.iter_mut().zip(&phi[1..]).zip(&MOMENTS) {
+            *line = scaled(phi, &factors.map(|factor| factor * h));
+        }
+        functions
+    }
+}
+
+/// Level and slope of a function, times factors.
+#[inline(always)]
+fn scaled(phi: &Numbers<4>, factors: &Quad) -> [Quad; 2] {
+    [&phi.re, &phi.im].map(|part| core::array::from_fn(|i| part[i] * factors[i]))
 }
 
 /// One group of a part in a step.
@@ -46,6 +102,7 @@ impl Scratch {
         );
         Scratch {
             phi: PhiFunctions::new(group),
+            functions: vec![Functions::ZERO; largest(&Part::in_small_groups)],
             moments: vec![[[0.0; 4]; POWERS]; actuated],
             responses: vec![[[0.0; 4]; 2]; driven],
             response: vec![still; group],

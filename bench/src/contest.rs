@@ -40,7 +40,7 @@ pub struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// What it costs, to be measured.
+    /// Runs it again and gives the wall time [s]; infinity where it fails.
     pub fn cost(&self) -> Measure<'_> {
         Box::new(|| (self.again)().map_or(f64::INFINITY, |run| run.seconds))
     }

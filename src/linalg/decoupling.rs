@@ -14,7 +14,7 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-/// Largest entry of a decoupling transformation: states that stay two would lose more than two digits.
+/// Largest entry of a decoupling transformation: with a larger one states would lose more than two digits, and stay together.
 const LARGEST_COUPLING: f64 = 1e2;
 
 /// A matrix in block diagonal form.

@@ -26,20 +26,6 @@ pub struct SmallPhi {
     pair: Option<Complex<f64>>,
 }
 
-/// e^(z T) at times T as those of [`SmallPhi::of`]: at the sum of two times it is the product.
-pub fn exponentials(z: Complex<f64>, times: [f64; 4]) -> Numbers<4> {
-    let exponential = |time: f64| {
-        let (sine, cosine) = libm::sincos(z.im * time);
-        Complex::new(cosine, sine) * libm::exp(z.re * time)
-    };
-    let [one, other] = [times[1], times[2]].map(exponential);
-    let grown = [one * other, one, other, one * other];
-    Numbers {
-        re: grown.map(|grown| grown.re),
-        im: grown.map(|grown| grown.im),
-    }
-}
-
 impl SmallPhi {
     /// The functions of `matrix * time` at these times, not negative: two, and before and behind them their sum. `None` for a larger
     /// matrix. `general` serves where the eigenvalues do not.
@@ -136,6 +122,20 @@ impl SmallPhi {
             let per_apart = Numbers::all(apart.inv());
             grown.without(turned).times(&per_apart, COMPLEX)
         }
+    }
+}
+
+/// e^(z T) at times T as those of [`SmallPhi::of`]: at the sum of two times it is the product.
+pub fn exponentials(z: Complex<f64>, times: [f64; 4]) -> Numbers<4> {
+    let exponential = |time: f64| {
+        let (sine, cosine) = libm::sincos(z.im * time);
+        Complex::new(cosine, sine) * libm::exp(z.re * time)
+    };
+    let [one, other] = [times[1], times[2]].map(exponential);
+    let grown = [one * other, one, other, one * other];
+    Numbers {
+        re: grown.map(|grown| grown.re),
+        im: grown.map(|grown| grown.im),
     }
 }
 

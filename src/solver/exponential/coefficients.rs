@@ -17,8 +17,8 @@ use super::exchange::{Exchange, Influences};
 use super::lanes::{Quad, add_product, subtract_multiple, subtract_product};
 use super::panel::{Panels, Place};
 use super::part::Part;
-use super::polynomials::{END, LAGRANGE, NODES, POWERS, SEEN_AT};
-use super::scratch::{Functions, MOMENTS, Scratch, Share};
+use super::polynomials::{END, LAGRANGE, MOMENTS, NODES, POWERS, SEEN_AT};
+use super::scratch::{Functions, Scratch, Share};
 use super::sight::Moved;
 use crate::linalg::SmallPhi;
 

@@ -20,11 +20,11 @@ use super::nodes::larger;
 
 /// The next step is at most so many times longer; its accumulated error grows with the sixth power of that.
 const GROWTH: f64 = 2.0;
-/// What errors of single steps amount to when they add up over n steps, as part of n times the largest. Where laws are straight lines
-/// that only time ends, errors have either sign: measured over tolerances from 1e-2 to 1e-8, with smooth and with stepped stiffness,
-/// the error is then 0.01 to 0.8 of the tolerance. Contacts that part and curved laws leave errors of one sign. Exceptions are at the
-/// end of the tables in docs/performance.md.
+/// What errors of single steps amount to when they add up over n steps, as part of n times the largest, where laws are straight lines
+/// that only time ends: errors have either sign. Measured over tolerances from 1e-2 to 1e-8, with smooth and with stepped stiffness,
+/// the error is then 0.01 to 0.8 of the tolerance; exceptions are at the end of the tables in docs/performance.md.
 const EITHER_SIGN: f64 = 0.25;
+/// The same for contacts that part, curved laws and free rotations: errors have one sign.
 const ONE_SIGN: f64 = 1.0;
 
 /// By how much longer the next step may be, for an error in units of the bound.

@@ -133,7 +133,22 @@ pub(super) const BUBBLES: [[f64; POWERS]; CHECKS] = [
     ],
 ];
 /// k!.
-pub(super) const FACTORIAL: [f64; POWERS] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0];
+const FACTORIAL: [f64; POWERS] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0];
+/// k! x^(k+1) where couplings are looked at.
+pub(super) const MOMENTS: [Quad; POWERS] = {
+    let mut moments = [[0.0; 4]; POWERS];
+    let (mut k, mut power) = (0, SEEN_AT);
+    while k < POWERS {
+        let mut i = 0;
+        while i < 4 {
+            moments[k][i] = FACTORIAL[k] * power[i];
+            power[i] *= SEEN_AT[i];
+            i += 1;
+        }
+        k += 1;
+    }
+    moments
+};
 
 #[cfg(test)]
 mod tests {

@@ -5,24 +5,8 @@ use nalgebra::Complex;
 use super::lanes::Quad;
 use super::panel::Place;
 use super::part::Part;
-use super::polynomials::{FACTORIAL, POWERS, SEEN_AT};
+use super::polynomials::{MOMENTS, POWERS, SEEN_AT};
 use crate::linalg::{Group, Numbers, PHI_ORDERS, PhiFunctions, SmallPhi, exponentials};
-
-/// k! x^(k+1) where couplings are looked at.
-pub(super) const MOMENTS: [Quad; POWERS] = {
-    let mut moments = [[0.0; 4]; POWERS];
-    let (mut k, mut power) = (0, SEEN_AT);
-    while k < POWERS {
-        let mut i = 0;
-        while i < 4 {
-            moments[k][i] = FACTORIAL[k] * power[i];
-            power[i] *= SEEN_AT[i];
-            i += 1;
-        }
-        k += 1;
-    }
-    moments
-};
 
 /// Room for computing coefficients.
 #[derive(Debug, Clone)]
